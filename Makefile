@@ -1,0 +1,95 @@
+# motes: how particles scatter light, and what media made of them look like.
+# The main targets: make deps, all, check, demo, install; see README.md and CONTRIBUTING.md.
+VERSION = 0.1.0
+PREFIX  = /usr/local
+CFLAGS  = -O2 -g
+LDFLAGS =
+
+B = build
+PACKAGES = gcc libc6-dev make pkg-config libopenexr-dev libimath-dev libpng-dev zlib1g-dev libconfig-dev \
+	ocl-icd-opencl-dev opencl-headers pocl-opencl-icd oclgrind mandoc openimageio-tools perl git
+
+OWN_CFLAGS = -std=c11 -D_GNU_SOURCE -DMOTES_VERSION='"$(VERSION)"' -DCL_TARGET_OPENCL_VERSION=120 -Ilib -ffp-contract=off -fno-math-errno \
+	-fopenmp -Wall -Wextra -Wshadow -Wmissing-prototypes
+OWN_LDFLAGS = -fopenmp -Wl,--as-needed
+LIBS = -lOpenEXRCore -lpng -lz -lconfig -lOpenCL -lm
+ASAN = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+EXR_CFLAGS = $(shell pkg-config --cflags OpenEXR)    # asked for when used: make deps may have just installed it
+
+TOOLS = $(patsubst tools/%.c,%,$(wildcard tools/*.c))
+CHECKS = $(patsubst tests/%.c,%,$(wildcard tests/*.c))
+GENERATED = $(if $(wildcard lib/optics/materials.awk),materials) $(if $(wildcard lib/render/kern/sources),kernels)
+OBJECTS = $(patsubst lib/%.c,obj/%.o,$(wildcard lib/*/*.c)) $(GENERATED:%=obj/gen/%.o)
+MAN = $(wildcard man/*.[1-9])
+
+all: programs
+programs: $(TOOLS:%=$(B)/bin/%)
+asan-programs: $(TOOLS:%=$(B)/asan/bin/%)
+
+# One set of rules for each way to build: $(1) is the folder, $(2) further flags.
+define variant
+$(1)/obj/%.o: lib/%.c
+	@mkdir -p $$(@D)
+	$$(CC) $$(OWN_CFLAGS) $$(EXR_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -c -o $$@ $$<
+$(1)/obj/gen/%.o: $(B)/gen/%.c
+	@mkdir -p $$(@D)
+	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -c -o $$@ $$<
+$(1)/libmotes.a: $(addprefix $(1)/,$(OBJECTS))
+	rm -f $$@
+	$$(AR) rcs $$@ $$^
+$(1)/bin/%: tools/%.c $(1)/libmotes.a
+	@mkdir -p $$(@D)
+	$$(CC) $$(OWN_CFLAGS) $$(EXR_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -MF $$@.d $$(OWN_LDFLAGS) $$(LDFLAGS) -o $$@ $$< $(1)/libmotes.a $$(LIBS)
+$(1)/tests/%: tests/%.c $(1)/libmotes.a
+	@mkdir -p $$(@D)
+	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -MF $$@.d $$(OWN_LDFLAGS) $$(LDFLAGS) -o $$@ $$< $(1)/libmotes.a $$(LIBS)
+endef
+$(eval $(call variant,$(B),))
+$(eval $(call variant,$(B)/asan,$(ASAN)))
+$(eval $(call variant,$(B)/clang,-Werror))
+
+# Tables of data/materials and the kernels' text become C, so that a program needs no files beside it.
+$(B)/gen/materials.c: lib/optics/materials.awk $(wildcard data/materials/*.tsv)
+	@mkdir -p $(@D)
+	awk -f $^ >$@.new && mv $@.new $@
+$(B)/gen/kernels.c: lib/render/embed.awk lib/render/kern/sources $(wildcard lib/render/kern/*.h lib/render/kern/*.cl)
+	@mkdir -p $(@D)
+	awk -f $< $$(sed 's,^,lib/render/kern/,' lib/render/kern/sources) >$@.new && mv $@.new $@
+
+# Everything that building, the demo and the tests need, from Debian's own packages.
+deps:
+	@missing=$$(dpkg-query -W -f '$${db:Status-Status} $${Package}\n' $(PACKAGES) 2>&1 | grep -v '^installed '); \
+	[ -n "$$missing" ] || exit 0; \
+	if ! command -v apt-get >/dev/null; then echo 'make deps: no apt-get here; install by hand: $(PACKAGES)' >&2; exit 1; fi; \
+	if [ "$$(id -u)" = 0 ]; then as=; elif command -v sudo >/dev/null; then as='sudo'; \
+	else echo 'make deps: needs root or sudo; install by hand: $(PACKAGES)' >&2; exit 1; fi; \
+	apt='apt-get -q -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3'; \
+	$$as $$apt update && $$as env DEBIAN_FRONTEND=noninteractive $$apt install -y --no-install-recommends $(PACKAGES)
+
+check: programs $(CHECKS:%=$(B)/tests/%)
+	MOTES_BUILD=$(B) sh tests/run
+asan: asan-programs $(CHECKS:%=$(B)/asan/tests/%)
+	MOTES_BUILD=$(B)/asan sh tests/run
+
+demo: programs
+	@mkdir -p $(B)/demo
+	PATH="$(CURDIR)/$(B)/bin:$$PATH" $(MAKE) -C data/scenes/mist OUT="$(CURDIR)/$(B)/demo"
+
+bench: programs
+	PATH="$(CURDIR)/$(B)/bin:$$PATH" sh tests/bench/run $(B)/bench
+
+install: programs
+	install -d $(DESTDIR)$(PREFIX)/bin
+	install -m 755 $(TOOLS:%=$(B)/bin/%) $(DESTDIR)$(PREFIX)/bin
+	for m in $(MAN); do s=$${m##*.}; install -d $(DESTDIR)$(PREFIX)/share/man/man$$s && \
+		install -m 644 $$m $(DESTDIR)$(PREFIX)/share/man/man$$s || exit 1; done
+
+clean:
+	rm -rf $(B)
+
+.PHONY: all programs asan-programs deps check asan demo bench install clean
+.SECONDARY:
+ifneq ($(filter deps,$(MAKECMDGOALS)),)
+.NOTPARALLEL:
+endif
+-include $(shell find $(B) -name '*.d' 2>/dev/null)

@@ -1,0 +1,70 @@
+#include "base/die.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* One write, so that lines of several processes in a pipe do not mix. */
+static void say(const char *object, const char *fmt, va_list args)
+{
+	int error = errno;
+	char text[1024], line[2048];
+	vsnprintf(text, sizeof text, fmt, args);
+	size_t n = strlen(text);
+	snprintf(line, sizeof line, "%s: %s%s%s%s%s", program_invocation_short_name, object ? object : "",
+	         object ? ": " : "", text, n && text[n - 1] == ':' ? " " : "", n && text[n - 1] == ':' ? strerror(error) : "");
+	for (char *c = line; *c; c++)
+		if ((unsigned char)*c < ' ' || *c == 127)
+			*c = '?';
+	fprintf(stderr, "%s\n", line);
+}
+
+void die(const char *object, const char *fmt, ...)
+{
+	va_list args;
+	va_start(args, fmt);
+	say(object, fmt, args);
+	va_end(args);
+	exit(2);
+}
+
+void warn(const char *object, const char *fmt, ...)
+{
+	va_list args;
+	va_start(args, fmt);
+	say(object, fmt, args);
+	va_end(args);
+}
+
+void *xgrow(void *p, size_t n, size_t size)
+{
+	if (size && n > SIZE_MAX / size)
+		die(NULL, "out of memory");
+	p = realloc(p, n && size ? n * size : 1);
+	if (!p)
+		die(NULL, "out of memory");
+	return p;
+}
+
+void *xalloc(size_t n, size_t size)
+{
+	void *p = calloc(n ? n : 1, size ? size : 1);
+	if (!p)
+		die(NULL, "out of memory");
+	return p;
+}
+
+char *xtext(const char *fmt, ...)
+{
+	char *text;
+	va_list args;
+	va_start(args, fmt);
+	int n = vasprintf(&text, fmt, args);
+	va_end(args);
+	if (n < 0)
+		die(NULL, "out of memory");
+	return text;
+}

@@ -1,0 +1,21 @@
+/* out - an output that appears under its name only when it is whole. */
+#ifndef BASE_OUT_H
+#define BASE_OUT_H
+
+#include <stdio.h>
+
+struct out {
+	FILE *f;              /* write here */
+	const char *path;     /* the final name; "-" is standard output */
+	char *aside;          /* the name it has meanwhile; NULL if none */
+	int nameless;         /* the file has no name yet: the kernel drops it should we die */
+};
+
+/* out_open - open standard output (path NULL or "-") or a new file that will replace path; dies on failure.
+ * binary: refuse a terminal. A path that is no regular file (a device, a pipe) is written directly. */
+struct out out_open(const char *path, int binary);
+
+/* out_close - flush, check, and give the file its name; dies on failure. */
+void out_close(struct out *out);
+
+#endif

@@ -1,0 +1,39 @@
+/* exr - images of 32-bit float (or uint) channels, by OpenEXRCore. */
+#ifndef IMAGE_EXR_H
+#define IMAGE_EXR_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define EXR_CHANNELS 256
+#define EXR_SIDE_MAX 32768
+
+struct exr_channel {
+	char name[64];
+	int is_uint;             /* data holds uint32_t bits */
+	float *data;             /* [height][width], top row first */
+};
+
+struct exr {
+	int width, height;
+	int n;
+	struct exr_channel channel[EXR_CHANNELS];
+	char *history;           /* cmd lines as in tab(5), each ending in a newline: the string attribute "history"; or NULL */
+};
+
+/* exr_read - read a scan-line or tiled image (path NULL or "-": standard input); half channels become float. Dies on anything
+ * that is not a whole, sane image. */
+void exr_read(const char *path, struct exr *image);
+
+/* exr_write - write scan lines with ZIP compression (path NULL or "-": standard output); bytes depend on content alone. Dies. */
+void exr_write(const char *path, const struct exr *image);
+
+/* exr_find - the channel of that name, NULL if there is none. */
+const struct exr_channel *exr_find(const struct exr *image, const char *name);
+
+/* exr_add - append a channel with zeroed pixels and return its data. */
+float *exr_add(struct exr *image, const char *name);
+
+void exr_free(struct exr *image);
+
+#endif

@@ -1,0 +1,70 @@
+/* sizes - what the optics tools share: their options, and the sizes they are asked about.
+ *
+ * Sizes come from a table with a radius column (its other columns are carried through), from --radius, or from
+ * --size-parameter, where x stands for wavelength and radius both. They are handed out size by size, within a size by
+ * wavelength in the order given. Everything dies at the first error. */
+#ifndef PIPE_SIZES_H
+#define PIPE_SIZES_H
+
+#include "base/opt.h"
+#include "base/tab.h"
+
+#include <complex.h>
+
+/* The options as given; zero-initialised, but for host (SIZES_INIT). */
+struct sizes_options {
+	const char *particle, *host;       /* a number or a material's name */
+	struct reals wavelength;           /* um, in vacuum */
+	struct reals radius;               /* um */
+	struct reals x;                    /* size parameters */
+	long long threads;
+};
+
+#define SIZES_INIT { .host = "1.0", .threads = 1 }
+
+/* Rows for the option table. */
+#define SIZES_OPTIONS(o) \
+	{ "--particle", OPT_TEXT, &(o).particle, 0, 0, "M", "refractive index (1.33, 1.5+0.1i) or material of the particle", 0 }, \
+	{ "--host", OPT_TEXT, &(o).host, 0, 0, "M", "the same of the medium around it", 0 }, \
+	{ "--wavelength", OPT_UM_STEPS, &(o).wavelength, 1e-4, 1e4, "L[,L..]", "vacuum wavelengths, or an inclusive range FROM:TO:STEP", 0 }, \
+	{ "--radius", OPT_UMS, &(o).radius, 1e-9, 1e9, "R[,R..]", "radii, or FROM:TO:COUNT log-spaced, instead of a table", 0 }, \
+	{ "--size-parameter", OPT_REALS, &(o).x, 0, 0, "X[,X..]", "size parameters instead of wavelengths and radii, or FROM:TO:COUNT", 0 }, \
+	{ "--threads", OPT_INT, &(o).threads, 1, 1024, "N", "threads", 1 }
+
+/* One (size, wavelength). */
+struct size {
+	double x;                    /* size parameter 2 pi r eta_m / lambda */
+	double complex m;            /* relative refractive index, particle over host */
+	double wavelength, radius;   /* um; both 0 when asked by size parameter */
+	double host;                 /* refractive index of the host */
+	const double *carried;       /* values of the carried columns */
+	int first;                   /* first wavelength of this size */
+};
+
+struct sizes;
+
+/* sizes_open - check the options and open the table named by operand (NULL: standard input, where options give no radii). */
+struct sizes *sizes_open(const struct sizes_options *o, const char *operand);
+
+/* sizes_columns - the key columns (wavelength, radius; or x) into cols; returns how many. */
+int sizes_columns(const struct sizes *s, struct tab_col *cols);
+
+/* sizes_carried - the carried columns of the table into cols, less those named in own[nown] (which the tool writes itself);
+ * returns how many. Decides what size.carried holds. */
+int sizes_carried(struct sizes *s, int nown, const struct tab_col *own, struct tab_col *cols);
+
+/* sizes_history - cmd lines of the table, "" without one. */
+const char *sizes_history(const struct sizes *s);
+
+/* sizes_by_x - whether sizes are given by --size-parameter. */
+int sizes_by_x(const struct sizes *s);
+
+/* sizes_next - the next (size, wavelength); 0 at the end. */
+int sizes_next(struct sizes *s, struct size *out);
+
+/* sizes_key - put the values of the key columns into row; returns how many. */
+int sizes_key(const struct sizes *s, const struct size *size, double *row);
+
+void sizes_close(struct sizes *s);
+
+#endif
