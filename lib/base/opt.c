@@ -181,8 +181,9 @@ static void finish(void)
 
 struct opt_line opt_parse(const struct opt_tool *tool, int argc, char **argv)
 {
-	struct opt_line line = { 0, xalloc((size_t)argc + 1, sizeof(char *)), xtext("%s", "") };
+	static struct opt_line line;     /* reachable to the end: it is nobody's to free */
 	int only_operands = 0;
+	line = (struct opt_line){ 0, xalloc((size_t)argc + 1, sizeof(char *)), xtext("%s", "") };
 	quote(&line.history, program_invocation_short_name);
 	for (int i = 1; i < argc; i++) {
 		const char *word = argv[i];
