@@ -37,7 +37,7 @@ static const char *choice(const char *words, const char *text, int *out)
 	size_t n = strlen(text);
 	int i = 0;
 	for (const char *w = words; w; w = strchr(w, '|') ? strchr(w, '|') + 1 : NULL, i++)
-		if (n && !strncmp(w, text, n) && (w[n] == '|' || !w[n])) {
+		if (n && !strchr(text, '|') && !strncmp(w, text, n) && (w[n] == '|' || !w[n])) {
 			*out = i;
 			return NULL;
 		}
