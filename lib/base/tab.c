@@ -434,6 +434,8 @@ void tab_put(struct tab_out *t, const double *row)
 			break;
 		case TAB_F32:
 			f = (float)row[i];
+			if (isinf(f) && !isinf(row[i]))
+				die(t->cols[i].name, "%g does not fit an f32 column", row[i]);
 			memcpy(&half, &f, 4);
 			put32(p, half);
 			break;

@@ -58,7 +58,7 @@ struct tab_out;
  *        command  this program's own line */
 struct tab_out *tab_create(const char *path, const char *history, const char *command, int ncols, const struct tab_col *cols);
 
-/* tab_put - append a row; dies when a value does not fit an i32 column. */
+/* tab_put - append a row; dies when a value does not fit an i32 or f32 column. */
 void tab_put(struct tab_out *t, const double *row);
 
 /* tab_finish - write the end mark and close. */
