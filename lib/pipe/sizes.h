@@ -35,15 +35,30 @@ struct sizes_options {
 struct size {
 	double x;                    /* size parameter 2 pi r eta_m / lambda */
 	double complex m;            /* relative refractive index, particle over host */
+	double x_max;                /* the largest x of this size over all its wavelengths: one angular grid serves them all */
 	double wavelength, radius;   /* um; both 0 when asked by size parameter */
 	double host;                 /* refractive index of the host */
-	const double *carried;       /* values of the carried columns */
+	const double *carried;       /* values of the carried columns; good until the next size is asked for */
 	int first;                   /* first wavelength of this size */
 };
 
 struct sizes;
 
-/* sizes_open - check the options and open the table named by operand (NULL: standard input, where options give no radii). */
+#define SIZES_X_MIN 1e-8
+#define SIZES_X_MAX 1e7
+
+/* sizes_x - size parameter of a radius at a vacuum wavelength (both um) in a host of the given index. */
+double sizes_x(double radius, double wavelength, double host);
+
+/* sizes_input - the table named by operand (NULL: standard input); NULL where the options give the sizes themselves, and
+ * then an operand is refused. */
+struct tab *sizes_input(const struct sizes_options *o, const char *operand);
+
+/* sizes_over - check the options and take the sizes from a table that sizes_input opened (NULL: from the options).
+ * Sets the number of OpenMP threads. */
+struct sizes *sizes_over(const struct sizes_options *o, struct tab *table);
+
+/* sizes_open - both at once, for tools that read nothing but sizes. */
 struct sizes *sizes_open(const struct sizes_options *o, const char *operand);
 
 /* sizes_columns - the key columns (wavelength, radius; or x) into cols; returns how many. */
