@@ -19,7 +19,7 @@ struct sizes {
 	const double *wavelength;
 	double *host;                       /* per wavelength */
 	double complex *m;
-	double size_radius, x_max;          /* of the size at hand */
+	double size_radius;                 /* (or x) of the size at hand */
 };
 
 double sizes_x(double radius, double wavelength, double host)
@@ -69,10 +69,25 @@ static void indices(struct sizes *s, const struct sizes_options *o)
 	}
 }
 
-struct tab *sizes_input(const struct sizes_options *o, const char *operand)
+void sizes_require(const struct sizes_options *o)
 {
 	if (o->radius.n && o->x.n)
 		die("--size-parameter", "excludes --radius");
+	if (!o->particle)
+		die("--particle", "is missing: the refractive index or material of the particles");
+	if (o->x.n && o->wavelength.n)
+		die("--size-parameter", "excludes --wavelength");
+	if (!o->x.n && !o->wavelength.n)
+		die("--wavelength", "is missing (write it like 550nm), or give --size-parameter");
+}
+
+void sizes_threads(const struct sizes_options *o)
+{
+	omp_set_num_threads((int)o->threads);
+}
+
+struct tab *sizes_input(const struct sizes_options *o, const char *operand)
+{
 	if (operand && (o->radius.n || o->x.n))
 		die(operand, "a table of sizes excludes %s", o->x.n ? "--size-parameter" : "--radius");
 	return o->radius.n || o->x.n ? NULL : tab_open(operand);
@@ -84,33 +99,26 @@ struct sizes *sizes_over(const struct sizes_options *o, struct tab *table)
 	s->table = table;
 	s->radius = o->radius;
 	s->x = o->x;
-	if (!o->particle)
-		die("--particle", "is missing: the refractive index or material of the particles");
-	if (o->x.n && o->wavelength.n)
-		die("--size-parameter", "excludes --wavelength");
-	if (!o->x.n && !o->wavelength.n)
-		die("--wavelength", "is missing (write it like 550nm), or give --size-parameter");
+	sizes_require(o);
 	for (size_t i = 0; i < o->x.n; i++)
 		if (!(o->x.v[i] >= SIZES_X_MIN && o->x.v[i] <= SIZES_X_MAX))
 			die("--size-parameter", "%g is out of range: from %g to %g", o->x.v[i], SIZES_X_MIN, SIZES_X_MAX);
 	indices(s, o);
 	if (table)
 		s->radius_col = tab_need(table, "radius", "um");
-	omp_set_num_threads((int)o->threads);
+	sizes_threads(o);
 	return s;
 }
 
 struct sizes *sizes_open(const struct sizes_options *o, const char *operand)
 {
-	/* What is missing is said before a table is waited for. */
-	if (!o->particle || (!o->wavelength.n && !o->x.n))
-		return sizes_over(o, NULL);
+	sizes_require(o);    /* said before a table is waited for */
 	return sizes_over(o, sizes_input(o, operand));
 }
 
-int sizes_columns(const struct sizes *s, struct tab_col *cols)
+int sizes_key_columns(int by_x, struct tab_col *cols)
 {
-	if (sizes_by_x(s)) {
+	if (by_x) {
 		cols[0] = (struct tab_col){ "x", TAB_F64, "1" };
 		return 1;
 	}
@@ -119,22 +127,41 @@ int sizes_columns(const struct sizes *s, struct tab_col *cols)
 	return 2;
 }
 
-int sizes_carried(struct sizes *s, int nown, const struct tab_col *own, struct tab_col *cols)
+int sizes_key_values(int by_x, const struct size *size, double *row)
 {
-	s->ncarried = 0;
-	for (int i = 0; s->table && i < tab_ncols(s->table); i++) {
-		const struct tab_col *c = &tab_cols(s->table)[i];
+	if (by_x) {
+		row[0] = size->x;
+		return 1;
+	}
+	row[0] = size->wavelength;
+	row[1] = size->radius;
+	return 2;
+}
+
+int sizes_carried_of(const struct tab *t, int nown, const struct tab_col *own, struct tab_col *cols, int *index)
+{
+	int n = 0;
+	for (int i = 0; i < tab_ncols(t); i++) {
+		const struct tab_col *c = &tab_cols(t)[i];
 		int j = 0;
 		while (j < nown && strcmp(own[j].name, c->name))
 			j++;
 		if (j < nown)
 			continue;
-		if (nown + s->ncarried == TAB_COLS)
-			die(tab_path(s->table), "has too many columns to carry through");
-		cols[s->ncarried] = *c;
-		s->carried_col[s->ncarried++] = i;
+		if (nown + n == TAB_COLS)
+			die(tab_path(t), "has too many columns to carry through");
+		cols[n] = *c;
+		index[n++] = i;
 	}
-	return s->ncarried;
+	return n;
+}
+
+int sizes_columns(const struct sizes *s, struct tab_col *cols) { return sizes_key_columns(sizes_by_x(s), cols); }
+int sizes_key(const struct sizes *s, const struct size *size, double *row) { return sizes_key_values(sizes_by_x(s), size, row); }
+
+int sizes_carried(struct sizes *s, int nown, const struct tab_col *own, struct tab_col *cols)
+{
+	return s->ncarried = s->table ? sizes_carried_of(s->table, nown, own, cols, s->carried_col) : 0;
 }
 
 const char *sizes_history(const struct sizes *s) { return s->table ? tab_history(s->table) : ""; }
@@ -172,12 +199,8 @@ static int next_size(struct sizes *s)
 		for (int i = 0; i < s->ncarried; i++)
 			s->carried[i] = s->row[s->carried_col[i]];
 	}
-	s->x_max = sizes_by_x(s) ? s->size_radius : 0;
-	for (size_t i = 0; !sizes_by_x(s) && i < s->nwave; i++) {
-		double x = sizes_x(s->size_radius, s->wavelength[i], s->host[i]);
-		check_x(s, x, s->size_radius, s->wavelength[i]);
-		s->x_max = fmax(s->x_max, x);
-	}
+	for (size_t i = 0; !sizes_by_x(s) && i < s->nwave; i++)
+		check_x(s, sizes_x(s->size_radius, s->wavelength[i], s->host[i]), s->size_radius, s->wavelength[i]);
 	return 1;
 }
 
@@ -192,21 +215,9 @@ int sizes_next(struct sizes *s, struct size *out)
 	out->wavelength = sizes_by_x(s) ? 0 : s->wavelength[i];
 	out->radius = sizes_by_x(s) ? 0 : s->size_radius;
 	out->x = sizes_by_x(s) ? s->size_radius : sizes_x(s->size_radius, out->wavelength, out->host);
-	out->x_max = s->x_max;
 	out->carried = s->carried;
 	s->wave = (i + 1) % s->nwave;
 	return 1;
-}
-
-int sizes_key(const struct sizes *s, const struct size *size, double *row)
-{
-	if (sizes_by_x(s)) {
-		row[0] = size->x;
-		return 1;
-	}
-	row[0] = size->wavelength;
-	row[1] = size->radius;
-	return 2;
 }
 
 void sizes_close(struct sizes *s)
