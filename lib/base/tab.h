@@ -47,6 +47,10 @@ uint64_t tab_row(const struct tab *t);
 
 void tab_close(struct tab *t);
 
+/* tab_join - the lines of several histories (the last argument is NULL), each once, each ending in a newline: tables that meet
+ * again share their first programs. */
+char *tab_join(const char *first, ...) __attribute__((sentinel));
+
 struct tab_out;
 
 /* tab_create - begin a table (path NULL or "-": standard output).
