@@ -273,9 +273,9 @@ int main(void)
 {
 	if (!getenv("MOTES_BUILD"))
 		die("MOTES_BUILD", "is not set; run by tests/run");
-	char *bin = xtext("%s/bin", realpath(getenv("MOTES_BUILD"), NULL));
+	char *build = realpath(getenv("MOTES_BUILD"), NULL), *bin = xtext("%s/bin", build);
 	setenv("BIN", bin, 1);
-	setenv("ASAN_OPTIONS", "exitcode=99", 0);
+	setenv("ASAN_OPTIONS", "exitcode=99:detect_leaks=0", 0);     /* for the tools: as in tests/lib.sh */
 	setenv("OMP_NUM_THREADS", "1", 0);
 	plan(2 * READERS);
 	make_inputs();
@@ -296,6 +296,7 @@ int main(void)
 		free(tool);
 		free(input);
 	}
+	free(build);
 	free(bin);
 	char *sweep = xtext("rm -r %s", folder);
 	int left = system(sweep);
