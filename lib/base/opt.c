@@ -138,7 +138,8 @@ static void standing(const struct opt *o, char *text, size_t size)
 	*text = 0;
 	switch (o->type) {
 	case OPT_INT:
-		snprintf(text, size, " (%lld)", *(long long *)o->dst);
+		if (o->lo == o->hi || (double)*(long long *)o->dst >= o->lo)    /* a default out of range: none */
+			snprintf(text, size, " (%lld)", *(long long *)o->dst);
 		break;
 	case OPT_REAL:
 		if (!isnan(*(double *)o->dst))

@@ -25,7 +25,7 @@ enum opt_type {
 struct opt {
 	const char *name;     /* "--radius", "-o" */
 	enum opt_type type;
-	void *dst;            /* holds the default beforehand; NaN in a double: none */
+	void *dst;            /* holds the default beforehand; NaN in a double, or an integer below lo: none */
 	double lo, hi;        /* every value lies in [lo, hi]; lo == hi: anywhere */
 	const char *arg;      /* how the value is written, for --help */
 	const char *help;

@@ -15,20 +15,30 @@ struct efficiencies {
 	double back;          /* radar backscatter efficiency 4 |S1(180 deg)|^2 / x^2 */
 };
 
-/* mie_terms - number of partial waves needed for x and m, resonances included (their order can exceed x: |m| x counts too). */
+/* mie_terms - number of partial waves that x and m need for full double precision; resonances included, whose order can exceed
+ * x and is bounded by |m| x. x in (0, MIE_X_MAX]. */
 int mie_terms(double x, double complex m);
 
 /* mie_coefficients - a[1..n], b[1..n]; index 0 is set to 0.
- * Given:    x   size parameter, > 0
- *           m   relative refractive index
+ * Given:    x   size parameter, (0, MIE_X_MAX]
+ *           m   relative refractive index, Re m > 0, Im m >= 0, |m| x <= 1e9
  *           n   number of terms, at least 1
  * Returned: a[n+1], b[n+1]; 0 on success, -1 when memory ran out */
 int mie_coefficients(double x, double complex m, int n, double complex *a, double complex *b);
 
-/* mie_efficiencies - sums over given coefficients a[n+1], b[n+1]; real_m: scattering equals extinction, absorption is 0. */
-struct efficiencies mie_efficiencies(double x, int real_m, int n, const double complex *a, const double complex *b);
+/* mie_lossless - whether a[n+1], b[n+1] are those of a particle that does not absorb: |a|^2 = Re a and |b|^2 = Re b to rounding.
+ * So a stream of coefficients need not carry m. */
+int mie_lossless(int n, const double complex *a, const double complex *b);
 
-/* mie_amplitudes - S1, S2 at angles theta[ntheta] (degrees, [0, 180]) by direct summation; 0, or -1 when memory ran out. */
+/* mie_efficiencies - sums over given coefficients a[n+1], b[n+1]; lossless: scattering equals extinction, absorption is 0. */
+struct efficiencies mie_efficiencies(double x, int lossless, int n, const double complex *a, const double complex *b);
+
+/* mie_error - estimate of what rounding does to the efficiencies: the larger of the relative errors of ext and sca and the
+ * absolute error of g. It grows with x, and where m is near 1. */
+double mie_error(double x, int n, const double complex *a, const double complex *b);
+
+/* mie_amplitudes - S1, S2 at angles theta[ntheta] (degrees, [0, 180]) by direct summation; 0, or -1 when memory ran out.
+ * An angle's result does not depend on the others. Blocks of angles are shared out among OpenMP threads. */
 int mie_amplitudes(int n, const double complex *a, const double complex *b, int ntheta, const double *theta,
                    double complex *s1, double complex *s2);
 

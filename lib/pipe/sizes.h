@@ -37,13 +37,33 @@ struct size {
 	double complex m;            /* relative refractive index, particle over host */
 	double wavelength, radius;   /* um; both 0 when asked by size parameter */
 	double host;                 /* refractive index of the host */
-	const double *carried;       /* values of the carried columns */
+	const double *carried;       /* values of the carried columns; good until the next size is asked for */
 	int first;                   /* first wavelength of this size */
 };
 
 struct sizes;
 
-/* sizes_open - check the options and open the table named by operand (NULL: standard input, where options give no radii). */
+#define SIZES_X_MIN 1e-8
+#define SIZES_X_MAX 1e7
+
+/* sizes_x - size parameter of a radius at a vacuum wavelength (both um) in a host of the given index. */
+double sizes_x(double radius, double wavelength, double host);
+
+/* sizes_require - die where --particle, or what gives the wavelength, is missing, or options exclude each other. */
+void sizes_require(const struct sizes_options *o);
+
+/* sizes_threads - set the number of OpenMP threads. */
+void sizes_threads(const struct sizes_options *o);
+
+/* sizes_input - the table named by operand (NULL: standard input); NULL where the options give the sizes themselves, and
+ * then an operand is refused. */
+struct tab *sizes_input(const struct sizes_options *o, const char *operand);
+
+/* sizes_over - check the options and take the sizes from a table that sizes_input opened (NULL: from the options);
+ * sizes_threads is done here too. */
+struct sizes *sizes_over(const struct sizes_options *o, struct tab *table);
+
+/* sizes_open - both at once, for tools that read nothing but sizes. */
 struct sizes *sizes_open(const struct sizes_options *o, const char *operand);
 
 /* sizes_columns - the key columns (wavelength, radius; or x) into cols; returns how many. */
@@ -52,6 +72,12 @@ int sizes_columns(const struct sizes *s, struct tab_col *cols);
 /* sizes_carried - the carried columns of the table into cols, less those named in own[nown] (which the tool writes itself);
  * returns how many. Decides what size.carried holds. */
 int sizes_carried(struct sizes *s, int nown, const struct tab_col *own, struct tab_col *cols);
+
+/* The pieces of these that other readers use: the key columns and values by x or not, the carried columns of any table (their
+ * indices into index[]). */
+int sizes_key_columns(int by_x, struct tab_col *cols);
+int sizes_key_values(int by_x, const struct size *size, double *row);
+int sizes_carried_of(const struct tab *t, int nown, const struct tab_col *own, struct tab_col *cols, int *index);
 
 /* sizes_history - cmd lines of the table, "" without one. */
 const char *sizes_history(const struct sizes *s);

@@ -1,0 +1,23 @@
+/* angles - grids of scattering angles: degrees, ascending, 0 and 180 included, symmetric (180 - theta[i] is theta[n-1-i] as a
+ * double). A grid depends on nothing but what is given here, so every model of one size uses the same. */
+#ifndef OPTICS_ANGLES_H
+#define OPTICS_ANGLES_H
+
+/* angles_count - number of angles of the default grid for size parameter x > 0. */
+int angles_count(double x);
+
+/* angles_grid - the default grid, theta[angles_count(x)], fit for a phase function linear between its angles.
+ *
+ * The intensity of one sphere has no finer detail than the period pi/x. The grid has 8 intervals in it, at least 1 a degree and
+ * at most 40 a degree (so from x = 900 on the finest detail is met less well, from 3600 on not at all: there a single size's
+ * interference is sampled, not resolved). At both ends the spacing starts with 1/10 of 1/x and widens with the distance, to
+ * 1/40 of it, until it reaches the interior's: diffraction lobe and glory are resolved at every x.
+ *
+ * Measured on Lorenz-Mie at x = 0.1 to 1e5, m = 1.33, 1.5, 0.75, 1.33+0.001i: 181 to 7695 angles; the linear interpolant
+ * integrates to 1 within 4e-4 (x <= 3000) and 4e-3; it differs from p in L1 by at most 4e-3 (x <= 1000), 3e-2 (3000), 0.13 (1e4). */
+void angles_grid(double x, double *theta);
+
+/* angles_equal - n >= 2 equally spaced angles. */
+void angles_equal(int n, double *theta);
+
+#endif

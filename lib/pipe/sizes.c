@@ -1,0 +1,230 @@
+#include "pipe/sizes.h"
+
+#include "base/die.h"
+#include "optics/ior.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct sizes {
+	struct tab *table;                  /* NULL: the options give the sizes */
+	int radius_col;
+	int ncarried, carried_col[TAB_COLS];
+	double row[TAB_COLS], carried[TAB_COLS];
+	struct reals radius, x;             /* as in the options */
+	size_t at;                          /* next of them */
+	size_t nwave, wave;                 /* wavelengths (1 by size parameter), and the next one */
+	const double *wavelength;
+	double *host;                       /* per wavelength */
+	double complex *m;
+	double size_radius;                 /* (or x) of the size at hand */
+};
+
+double sizes_x(double radius, double wavelength, double host)
+{
+	return 2 * M_PI * radius * host / wavelength;
+}
+
+static struct ior index_of(const char *option, const char *text)
+{
+	struct ior ior;
+	const char *bad = ior_parse(text, &ior);
+	if (bad)
+		die(option, "'%s' %s", text, bad);
+	return ior;
+}
+
+static double complex index_at(const char *option, const char *text, const struct ior *ior, double wavelength)
+{
+	double complex value;
+	const char *bad = ior_at(ior, wavelength, &value);
+	if (bad)
+		die(option, "'%s' at %g um %s", text, wavelength, bad);
+	return value;
+}
+
+/* Relative index at every wavelength; done before the first row, so that a bad index leaves no half a table behind. */
+static void indices(struct sizes *s, const struct sizes_options *o)
+{
+	struct ior particle = index_of("--particle", o->particle), host = index_of("--host", o->host);
+	if (sizes_by_x(s) && particle.material)
+		die("--particle", "'%s' needs a wavelength; with --size-parameter give a number", o->particle);
+	if (sizes_by_x(s) && host.material)
+		die("--host", "'%s' needs a wavelength; with --size-parameter give a number", o->host);
+	s->nwave = sizes_by_x(s) ? 1 : o->wavelength.n;
+	s->wavelength = o->wavelength.v;
+	s->host = xalloc(s->nwave, sizeof *s->host);
+	s->m = xalloc(s->nwave, sizeof *s->m);
+	for (size_t i = 0; i < s->nwave; i++) {
+		double w = sizes_by_x(s) ? 0 : s->wavelength[i];
+		double complex p = index_at("--particle", o->particle, &particle, w), h = index_at("--host", o->host, &host, w);
+		if (cimag(h) != 0)
+			die("--host", "'%s' absorbs; only a host without absorption can be computed", o->host);
+		s->host[i] = creal(h);
+		s->m[i] = CMPLX(creal(p) / creal(h), cimag(p) / creal(h));
+		if (s->m[i] == 1)
+			die("--particle", "'%s' has the host's own refractive index: it does not scatter", o->particle);
+	}
+}
+
+void sizes_require(const struct sizes_options *o)
+{
+	if (o->radius.n && o->x.n)
+		die("--size-parameter", "excludes --radius");
+	if (!o->particle)
+		die("--particle", "is missing: the refractive index or material of the particles");
+	if (o->x.n && o->wavelength.n)
+		die("--size-parameter", "excludes --wavelength");
+	if (!o->x.n && !o->wavelength.n)
+		die("--wavelength", "is missing (write it like 550nm), or give --size-parameter");
+}
+
+void sizes_threads(const struct sizes_options *o)
+{
+	omp_set_num_threads((int)o->threads);
+}
+
+struct tab *sizes_input(const struct sizes_options *o, const char *operand)
+{
+	if (operand && (o->radius.n || o->x.n))
+		die(operand, "a table of sizes excludes %s", o->x.n ? "--size-parameter" : "--radius");
+	return o->radius.n || o->x.n ? NULL : tab_open(operand);
+}
+
+struct sizes *sizes_over(const struct sizes_options *o, struct tab *table)
+{
+	struct sizes *s = xalloc(1, sizeof *s);
+	s->table = table;
+	s->radius = o->radius;
+	s->x = o->x;
+	sizes_require(o);
+	for (size_t i = 0; i < o->x.n; i++)
+		if (!(o->x.v[i] >= SIZES_X_MIN && o->x.v[i] <= SIZES_X_MAX))
+			die("--size-parameter", "%g is out of range: from %g to %g", o->x.v[i], SIZES_X_MIN, SIZES_X_MAX);
+	indices(s, o);
+	if (table)
+		s->radius_col = tab_need(table, "radius", "um");
+	sizes_threads(o);
+	return s;
+}
+
+struct sizes *sizes_open(const struct sizes_options *o, const char *operand)
+{
+	sizes_require(o);    /* said before a table is waited for */
+	return sizes_over(o, sizes_input(o, operand));
+}
+
+int sizes_key_columns(int by_x, struct tab_col *cols)
+{
+	if (by_x) {
+		cols[0] = (struct tab_col){ "x", TAB_F64, "1" };
+		return 1;
+	}
+	cols[0] = (struct tab_col){ "wavelength", TAB_F64, "um" };
+	cols[1] = (struct tab_col){ "radius", TAB_F64, "um" };
+	return 2;
+}
+
+int sizes_key_values(int by_x, const struct size *size, double *row)
+{
+	if (by_x) {
+		row[0] = size->x;
+		return 1;
+	}
+	row[0] = size->wavelength;
+	row[1] = size->radius;
+	return 2;
+}
+
+int sizes_carried_of(const struct tab *t, int nown, const struct tab_col *own, struct tab_col *cols, int *index)
+{
+	int n = 0;
+	for (int i = 0; i < tab_ncols(t); i++) {
+		const struct tab_col *c = &tab_cols(t)[i];
+		int j = 0;
+		while (j < nown && strcmp(own[j].name, c->name))
+			j++;
+		if (j < nown)
+			continue;
+		if (nown + n == TAB_COLS)
+			die(tab_path(t), "has too many columns to carry through");
+		cols[n] = *c;
+		index[n++] = i;
+	}
+	return n;
+}
+
+int sizes_columns(const struct sizes *s, struct tab_col *cols) { return sizes_key_columns(sizes_by_x(s), cols); }
+int sizes_key(const struct sizes *s, const struct size *size, double *row) { return sizes_key_values(sizes_by_x(s), size, row); }
+
+int sizes_carried(struct sizes *s, int nown, const struct tab_col *own, struct tab_col *cols)
+{
+	return s->ncarried = s->table ? sizes_carried_of(s->table, nown, own, cols, s->carried_col) : 0;
+}
+
+const char *sizes_history(const struct sizes *s) { return s->table ? tab_history(s->table) : ""; }
+int sizes_by_x(const struct sizes *s) { return s->x.n > 0; }
+
+static void check_x(const struct sizes *s, double x, double radius, double wavelength)
+{
+	if (x >= SIZES_X_MIN && x <= SIZES_X_MAX)
+		return;
+	if (s->table)
+		die(tab_path(s->table), "row %llu: size parameter %g (radius %g um, wavelength %g um) is out of range: from %g to %g",
+		    (unsigned long long)tab_row(s->table), x, radius, wavelength, SIZES_X_MIN, SIZES_X_MAX);
+	die("--radius", "size parameter %g (radius %g um, wavelength %g um) is out of range: from %g to %g",
+	    x, radius, wavelength, SIZES_X_MIN, SIZES_X_MAX);
+}
+
+/* The next radius, or x; 0 at the end. */
+static int next_size(struct sizes *s)
+{
+	if (!s->table) {
+		const struct reals *r = sizes_by_x(s) ? &s->x : &s->radius;
+		if (s->at == r->n)
+			return 0;
+		s->size_radius = r->v[s->at++];
+	} else {
+		if (!tab_next(s->table, s->row)) {
+			if (!tab_row(s->table))
+				die(tab_path(s->table), "has no rows");
+			return 0;
+		}
+		s->size_radius = s->row[s->radius_col];
+		if (!(s->size_radius > 0) || isinf(s->size_radius))
+			die(tab_path(s->table), "row %llu: radius %g um is not a positive length",
+			    (unsigned long long)tab_row(s->table), s->size_radius);
+		for (int i = 0; i < s->ncarried; i++)
+			s->carried[i] = s->row[s->carried_col[i]];
+	}
+	for (size_t i = 0; !sizes_by_x(s) && i < s->nwave; i++)
+		check_x(s, sizes_x(s->size_radius, s->wavelength[i], s->host[i]), s->size_radius, s->wavelength[i]);
+	return 1;
+}
+
+int sizes_next(struct sizes *s, struct size *out)
+{
+	if (!s->wave && !next_size(s))
+		return 0;
+	size_t i = s->wave;
+	out->first = i == 0;
+	out->m = s->m[i];
+	out->host = s->host[i];
+	out->wavelength = sizes_by_x(s) ? 0 : s->wavelength[i];
+	out->radius = sizes_by_x(s) ? 0 : s->size_radius;
+	out->x = sizes_by_x(s) ? s->size_radius : sizes_x(s->size_radius, out->wavelength, out->host);
+	out->carried = s->carried;
+	s->wave = (i + 1) % s->nwave;
+	return 1;
+}
+
+void sizes_close(struct sizes *s)
+{
+	if (s->table)
+		tab_close(s->table);
+	free(s->host);
+	free(s->m);
+	free(s);
+}
