@@ -1,5 +1,12 @@
 /* goa - geometrical optics approximation of scattering by a large sphere: diffraction and rays of order p <= order,
- * added coherently (Guo et al. 2022, section 3 and appendix C). Conventions as in mie.h. */
+ * added coherently (Guo et al. 2022, section 3 and appendix C). Conventions as in mie.h.
+ *
+ * The ray picture is infinite on caustics. There the divergence factor D is capped where the picture fails, continuously in theta:
+ *   rainbow      within one width of the Airy function, |Theta - Theta_R| < dT = (Theta'' / (2 x^2 cos^2 i_R))^(1/3), |Theta'| is
+ *                raised by sqrt(dT / |Theta - Theta_R|), that is, it stays what it is at that distance
+ *   glory        sin theta of a ray that reaches an axis with sin i != 0 is at least 1/(x sin i), the width of its Bessel function
+ *   axial focus  |Theta'| of every ray, and sin theta / sin i of the axial ones, is at least 0.4607 sqrt(Theta'''/x) (n near p:
+ *                stationary phase with the fourth-order term alone) and at least 2/x (m near 1: no ray exceeds x^2/2) */
 #ifndef OPTICS_GOA_H
 #define OPTICS_GOA_H
 
@@ -18,7 +25,20 @@ double goa_norm(double x, double complex m, int order);
 
 /* goa_efficiencies - extinction by eq 14 (p = 1; eq 12 for higher odd orders <= order), absorption from the attenuation of the
  * rays, sca = ext - abs (sca = ext for real m), g from the normalised phase function, back from S1(180 deg).
- * *error: estimate of the larger of the relative errors of ext and sca and the absolute error of g; >= 1 where GOA does not hold. */
+ * *error: estimate of the larger of the relative errors of ext and sca and the absolute error of g; >= 1 where GOA does not hold,
+ * or when memory ran out (everything is 0 then). */
 struct efficiencies goa_efficiencies(double x, double complex m, int order, double *error);
+
+/* The rays depend on m and the angles alone. Whoever asks for many sizes finds them once. */
+struct goa;
+
+/* goa_new - the rays of every order p <= order at angles theta[n] (degrees, [0, 180]; copied); NULL when memory ran out. */
+struct goa *goa_new(double complex m, int order, int n, const double *theta);
+
+/* goa_at - S1, S2 of size x at the angles of goa_new, and *norm = goa_norm unless norm is NULL.
+ * Rays for the norm are kept from size to size: a struct goa serves one thread at a time. Returns 0, or -1 when memory ran out. */
+int goa_at(struct goa *g, double x, double complex *s1, double complex *s2, double *norm);
+
+void goa_free(struct goa *g);
 
 #endif
