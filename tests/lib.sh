@@ -1,3 +1,4 @@
+# shellcheck shell=sh
 # TAP for plain sh. A test sources this, says "plan N", and reports with ok and is.
 # The programs under test are first on the PATH; $tmp is a folder of the test's own.
 set -u
@@ -5,10 +6,12 @@ set -u
 top=$(cd "$(dirname "$0")/.." && pwd)
 case $MOTES_BUILD in /*) ;; *) MOTES_BUILD=$top/$MOTES_BUILD ;; esac
 PATH=$MOTES_BUILD/bin:$PATH
+# shellcheck disable=SC2034
 data=$top/tests/data
 tmp=$(mktemp -d)
 trap 'rm -rf "$tmp"' EXIT
 export PATH LC_ALL=C OMP_NUM_THREADS=2
+export ASAN_OPTIONS="${ASAN_OPTIONS:-exitcode=99}"    # its own 1 would read as "compared and different"
 
 plan() { echo "1..$1"; }
 

@@ -37,7 +37,7 @@ static const char *choice(const char *words, const char *text, int *out)
 	size_t n = strlen(text);
 	int i = 0;
 	for (const char *w = words; w; w = strchr(w, '|') ? strchr(w, '|') + 1 : NULL, i++)
-		if (n && !strncmp(w, text, n) && (w[n] == '|' || !w[n])) {
+		if (n && !strchr(text, '|') && !strncmp(w, text, n) && (w[n] == '|' || !w[n])) {
 			*out = i;
 			return NULL;
 		}
@@ -182,8 +182,9 @@ static void finish(void)
 
 struct opt_line opt_parse(const struct opt_tool *tool, int argc, char **argv)
 {
-	struct opt_line line = { 0, xalloc((size_t)argc + 1, sizeof(char *)), xtext("%s", "") };
+	static struct opt_line line;     /* reachable to the end: it is nobody's to free */
 	int only_operands = 0;
+	line = (struct opt_line){ 0, xalloc((size_t)argc + 1, sizeof(char *)), xtext("%s", "") };
 	quote(&line.history, program_invocation_short_name);
 	for (int i = 1; i < argc; i++) {
 		const char *word = argv[i];

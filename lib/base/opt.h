@@ -45,7 +45,8 @@ struct opt_line {
 	char *history;        /* the command, sh-quoted, less file names and local options */
 };
 
-/* opt_parse - parse argv by the table; --help and --version print and exit 0, anything wrong dies. */
+/* opt_parse - parse argv by the table; --help and --version print and exit 0, anything wrong dies. What it returns lives
+ * as long as the program; lists (struct reals) are the caller's to free. */
 struct opt_line opt_parse(const struct opt_tool *tool, int argc, char **argv);
 
 /* Shared rows. */

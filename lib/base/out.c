@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <libgen.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -15,6 +16,47 @@ static char *folder_of(const char *path)
 	char *copy = xtext("%s", path), *folder = xtext("%s", dirname(copy));
 	free(copy);
 	return folder;
+}
+
+/* Without nameless files somebody has to sweep: names still in use, removed at any exit that is not a SIGKILL. */
+static char *volatile in_use[16];
+
+static void sweep(void)
+{
+	for (size_t i = 0; i < sizeof in_use / sizeof *in_use; i++)
+		if (in_use[i])
+			unlink(in_use[i]);
+}
+
+static void interrupted(int number)
+{
+	sweep();
+	raise(number);     /* SA_RESETHAND: this time it kills */
+}
+
+static void keep_swept(char *name)
+{
+	static const int numbers[] = { SIGHUP, SIGINT, SIGTERM, SIGPIPE };
+	static int ready;
+	for (size_t i = 0; !ready && i < sizeof numbers / sizeof *numbers; i++) {
+		struct sigaction was, now = { .sa_handler = interrupted, .sa_flags = (int)SA_RESETHAND | SA_NODEFER };
+		if (!sigaction(numbers[i], NULL, &was) && was.sa_handler == SIG_DFL)
+			sigaction(numbers[i], &now, NULL);
+	}
+	if (!ready++)
+		atexit(sweep);
+	for (size_t i = 0; i < sizeof in_use / sizeof *in_use; i++)
+		if (!in_use[i]) {
+			in_use[i] = name;
+			return;
+		}
+}
+
+static void swept(const char *name)
+{
+	for (size_t i = 0; i < sizeof in_use / sizeof *in_use; i++)
+		if (in_use[i] == name)
+			in_use[i] = NULL;
 }
 
 struct out out_open(const char *path, int binary)
@@ -36,11 +78,14 @@ struct out out_open(const char *path, int binary)
 	char *folder = folder_of(out.path);
 	mode_t mask = umask(0);
 	umask(mask);
-	int fd = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+	int fd = access("/proc/self/fd", X_OK) ? -1 : open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
 	out.aside = xtext("%s.tmp-%ld", out.path, (long)getpid());
 	out.nameless = fd >= 0;
-	if (fd < 0)     /* a file system without nameless files */
+	if (fd < 0) {   /* a file system without nameless files */
 		fd = open(out.aside, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666 & ~mask);
+		if (fd >= 0)
+			keep_swept(out.aside);
+	}
 	out.f = fd < 0 ? NULL : fdopen(fd, "wb");
 	if (!out.f)
 		die(out.path, "cannot create:");
@@ -55,6 +100,8 @@ void out_close(struct out *out)
 		die(!strcmp(out->path, "-") ? "standard output" : out->path, "cannot write:");
 	if (out->nameless) {
 		char *self = xtext("/proc/self/fd/%d", fileno(out->f));
+		unlink(out->aside);     /* of a dead process that had our number */
+		keep_swept(out->aside);
 		if (linkat(AT_FDCWD, self, AT_FDCWD, out->aside, AT_SYMLINK_FOLLOW))
 			die(out->path, "cannot name the finished file:");
 		free(self);
@@ -63,6 +110,7 @@ void out_close(struct out *out)
 		die(!strcmp(out->path, "-") ? "standard output" : out->path, "cannot write:");
 	if (out->aside && rename(out->aside, out->path))
 		die(out->path, "cannot rename:");
+	swept(out->aside);
 	free(out->aside);
 	out->aside = NULL;
 }

@@ -15,6 +15,8 @@ struct out {
  * binary: refuse a terminal. A path that is no regular file (a device, a pipe) is written directly. */
 struct out out_open(const char *path, int binary);
 
+/* Should the program die or be interrupted (SIGHUP, SIGINT, SIGTERM), nothing is left behind. */
+
 /* out_close - flush, check, and give the file its name; dies on failure. */
 void out_close(struct out *out);
 

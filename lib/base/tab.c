@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -359,20 +360,26 @@ static void flush_block(struct tab_out *t)
 	t->used = 0;
 }
 
-/* The lines of a history, each once: tables that meet again share their first programs. */
-static char *distinct(const char *history, const char *command)
+char *tab_join(const char *first, ...)
 {
-	char *all = xtext("%s%s\n", history, command), *kept = xtext("\n"), *save = NULL;
-	for (char *line = strtok_r(all, "\n", &save); line; line = strtok_r(NULL, "\n", &save)) {
-		char *framed = xtext("\n%s\n", line);
-		if (!strstr(kept, framed)) {
-			char *longer = xtext("%s%s\n", kept, line);
-			free(kept);
-			kept = longer;
+	char *kept = xtext("\n");
+	va_list args;
+	va_start(args, first);
+	for (const char *text = first; text; text = va_arg(args, const char *)) {
+		char *copy = xtext("%s", text), *save = NULL;
+		for (char *line = strtok_r(copy, "\n", &save); line; line = strtok_r(NULL, "\n", &save)) {
+			char *framed = xtext("\n%s\n", line), *longer;
+			if (!strstr(kept, framed)) {
+				longer = xtext("%s%s\n", kept, line);
+				free(kept);
+				kept = longer;
+			}
+			free(framed);
 		}
-		free(framed);
+		free(copy);
 	}
-	free(all);
+	va_end(args);
+	memmove(kept, kept + 1, strlen(kept));
 	return kept;
 }
 
@@ -387,7 +394,7 @@ struct tab_out *tab_create(const char *path, const char *history, const char *co
 	t->block = xalloc(WRITE_BLOCK, 1);
 	t->crc = (uint32_t)crc32(0, NULL, 0);
 	emit(t, MAGIC, strlen(MAGIC));
-	char *lines = distinct(history, command), *save = NULL;
+	char *lines = tab_join(history, command, NULL), *save = NULL;
 	for (char *line = strtok_r(lines, "\n", &save); line; line = strtok_r(NULL, "\n", &save)) {
 		char *text = xtext("cmd\t%s\n", line);
 		emit(t, text, strlen(text));
@@ -427,6 +434,8 @@ void tab_put(struct tab_out *t, const double *row)
 			break;
 		case TAB_F32:
 			f = (float)row[i];
+			if (isinf(f) && !isinf(row[i]))
+				die(t->cols[i].name, "%g does not fit an f32 column", row[i]);
 			memcpy(&half, &f, 4);
 			put32(p, half);
 			break;

@@ -47,6 +47,10 @@ uint64_t tab_row(const struct tab *t);
 
 void tab_close(struct tab *t);
 
+/* tab_join - the lines of several histories (the last argument is NULL), each once, each ending in a newline: tables that meet
+ * again share their first programs. */
+char *tab_join(const char *first, ...) __attribute__((sentinel));
+
 struct tab_out;
 
 /* tab_create - begin a table (path NULL or "-": standard output).
@@ -54,7 +58,7 @@ struct tab_out;
  *        command  this program's own line */
 struct tab_out *tab_create(const char *path, const char *history, const char *command, int ncols, const struct tab_col *cols);
 
-/* tab_put - append a row; dies when a value does not fit an i32 column. */
+/* tab_put - append a row; dies when a value does not fit an i32 or f32 column. */
 void tab_put(struct tab_out *t, const double *row);
 
 /* tab_finish - write the end mark and close. */

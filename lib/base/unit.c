@@ -86,7 +86,7 @@ static const char *plain_parts(const char *text, double *value, int *exponent)
 
 static const char *list(const char *text, part_parser *parse, int exponent, int by_step, struct reals *out)
 {
-	char *copy = xtext("%s", text), *part[3], *save = NULL;
+	char *copy = xtext("%s", text), *part[3];
 	double v[3];
 	int e[3], n = 0;
 	const char *bad = NULL;
@@ -108,9 +108,13 @@ static const char *list(const char *text, part_parser *parse, int exponent, int 
 		free(copy);
 		return bad;
 	}
-	for (char *c = strtok_r(copy, ":", &save); c && n < 4; c = strtok_r(NULL, ":", &save), n++)
+	for (char *c = copy, *next; c && n < 4; c = next, n++) {
+		next = strchr(c, ':');
+		if (next)
+			*next++ = 0;
 		if (n < 3)
 			part[n] = c;
+	}
 	if (n != 3) {
 		free(copy);
 		return by_step ? "is not a range FROM:TO:STEP" : "is not a range FROM:TO:COUNT";
@@ -124,6 +128,8 @@ static const char *list(const char *text, part_parser *parse, int exponent, int 
 	int common = e[0];
 	for (int i = 1; i < (by_step ? 3 : 2); i++)
 		v[i] = scale10(v[i], e[i] - common);
+	if (!isfinite(v[1]) || !isfinite(v[2]) || !isfinite(v[1] - v[0]) || !isfinite(scale10(v[1], common - exponent)))
+		return "is too large";
 	double count = by_step ? floor((v[1] - v[0]) / v[2] * (1 + 1e-12) + 1e-9) + 1 : v[2];
 	if (by_step ? !(v[2] > 0) || v[1] < v[0] : !(v[0] > 0) || v[1] < v[0] || count != floor(count) || count < 1)
 		return by_step ? "needs FROM <= TO and STEP > 0" : "needs 0 < FROM <= TO and a whole COUNT";
@@ -172,6 +178,6 @@ const char *unit_bytes(const char *text, double *out)
 		return bad;
 	for (int i = 0; i < 4; i++, *out *= 1024)
 		if (!strcmp(rest, suffix[i]))
-			return *out >= 1 ? NULL : "is out of range";
+			return *out >= 1 && isfinite(*out) ? NULL : "is out of range";
 	return "has an unknown unit (KiB, MiB, GiB)";
 }

@@ -7,9 +7,10 @@
 
 #define EXR_CHANNELS 256
 #define EXR_SIDE_MAX 32768
+#define EXR_NAME 64
 
 struct exr_channel {
-	char name[64];
+	char name[EXR_NAME];
 	int is_uint;             /* data holds uint32_t bits */
 	float *data;             /* [height][width], top row first */
 };
@@ -21,17 +22,21 @@ struct exr {
 	char *history;           /* cmd lines as in tab(5), each ending in a newline: the string attribute "history"; or NULL */
 };
 
-/* exr_read - read a scan-line or tiled image (path NULL or "-": standard input); half channels become float. Dies on anything
- * that is not a whole, sane image. */
+/* exr_read - read a scan-line or tiled image (path NULL or "-": standard input); half channels become float. Of a tiled image
+ * with levels it is the finest; the data window is the image. Dies on anything that is not a whole, sane image: also on
+ * several parts, deep data, subsampled channels, and B44 and DWA
+ * compression. Bit errors go unseen where the format has no checksum: in uncompressed pixels and in free text. */
 void exr_read(const char *path, struct exr *image);
 
-/* exr_write - write scan lines with ZIP compression (path NULL or "-": standard output); bytes depend on content alone. Dies. */
+/* exr_write - write scan lines with ZIP compression (path NULL or "-": standard output); bytes depend on content alone: the
+ * order of the channels does not matter either. Dies. */
 void exr_write(const char *path, const struct exr *image);
 
 /* exr_find - the channel of that name, NULL if there is none. */
 const struct exr_channel *exr_find(const struct exr *image, const char *name);
 
-/* exr_add - append a channel with zeroed pixels and return its data. */
+/* exr_add - append a channel with zeroed pixels and return its data; width and height are set beforehand. Dies where a
+ * channel of this name is there already, or there are EXR_CHANNELS. For integers set is_uint of the last channel. */
 float *exr_add(struct exr *image, const char *name);
 
 void exr_free(struct exr *image);

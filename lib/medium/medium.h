@@ -1,0 +1,47 @@
+/* medium - a baked medium: optics by class and wavelength, phase functions, and the particles in their grid; medium(5). */
+#ifndef MEDIUM_MEDIUM_H
+#define MEDIUM_MEDIUM_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define MEDIUM_CLASSES 4096
+#define MEDIUM_WAVES 1024
+
+struct medium {
+	char *history;                  /* cmd lines as in tab(5) */
+	int round;                      /* a sphere of radius half[0], else a box; centred on the origin */
+	double half[3];                 /* m */
+	int n_waves, n_classes;
+	double *wavelength;             /* [wave] um, ascending */
+	double *radius;                 /* [class] um, ascending */
+	double *count;                  /* [class] particles in the medium (expected, where none are given) */
+	double *c_ext, *c_sca;          /* [class][wave] um^2 */
+	size_t n_nodes;
+	int32_t *node;                  /* [class][2] first node and number of nodes; class n_classes is the whole medium's mixture */
+	float *theta;                   /* [node] rad */
+	float *p;                       /* [node][wave] sr^-1, normalised */
+	uint32_t *cdf;                  /* [node][wave], see phase_cdf */
+	size_t n_particles;             /* 0: a medium without particles; the rest is then empty */
+	float *particle;                /* [particle][4] x y z m, the bits of an int32 class; in the order of the cells */
+	int32_t cells[3];
+	float low[3], cell[3];          /* m */
+	size_t n_first, n_references;
+	uint32_t *first;                /* [cell] + 1 */
+	uint32_t *reference;
+	void *map;                      /* of an open file */
+	size_t map_size;
+};
+
+/* medium_volume - in m^3. */
+double medium_volume(const struct medium *m);
+
+/* medium_write - write a file (not standard output: it is mapped when read). Dies. */
+void medium_write(const char *path, const struct medium *m);
+
+/* medium_open - verify a file by one sequential read, map it and check every index and value in it. Dies. */
+void medium_open(const char *path, struct medium *m);
+
+void medium_close(struct medium *m);
+
+#endif

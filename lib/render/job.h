@@ -1,0 +1,35 @@
+/* job - a scene and its medium made ready for the kernels, and the film that they fill. */
+#ifndef RENDER_JOB_H
+#define RENDER_JOB_H
+
+#include "medium/medium.h"
+#include "render/kern/scene.h"
+#include "render/scenefile.h"
+
+#include <stddef.h>
+
+struct job {
+	struct scene scene;
+	struct tables tables;
+	/* elements of each table, in the order of struct tables */
+	size_t n_extinction, n_disc, n_disc_most, n_albedo, n_colour, n_node, n_theta, n_p, n_cdf, n_particle, n_first, n_reference;
+	int64 *film;               /* [pixel][3] sums in units of 2^-30 */
+	int overflow;              /* a sum went beyond the film's limit */
+};
+
+/* job_make - the tables point into the medium where they can. Dies when the wavelengths make no colour. */
+void job_make(struct job *j, const struct scenefile *file, const struct medium *medium, int transport, uint32 seed);
+
+void job_free(struct job *j);
+
+/* render_c - add samples [first, first + n) of every pixel to the film, by the C build of the kernels. */
+void render_c(struct job *j, uint32 first, uint32 n, int threads);
+
+/* The same by OpenCL, whose device holds the tables and the film meanwhile. Each dies with one line on any failure. */
+struct cl;
+void cl_list(void);
+struct cl *cl_start(struct job *j, int device);
+void cl_render(struct cl *c, uint32 first, uint32 n);
+void cl_finish(struct cl *c);      /* brings the film back */
+
+#endif

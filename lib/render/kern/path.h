@@ -1,0 +1,187 @@
+/* path - one light path from the camera: flights, scattering, next-event estimation, all its wavelengths at once.
+ *
+ * A path is sampled for one of its wavelengths, the hero, each equally probable. weight[j] is the throughput of wavelength j
+ * (albedos, roulette), density[j] the probability density of the path had j been the hero, divided by its mean over j.
+ * By the balance heuristic over heroes wavelength j then contributes weight[j] density[j] times what it sees: no wavelength is
+ * favoured, and one whose own disc would not have been met has density 0 from there on. */
+#ifndef KERN_PATH_H
+#define KERN_PATH_H
+
+#include "render/kern/medium.h"
+#include "render/kern/phase.h"
+#include "render/kern/random.h"
+
+struct path {
+	struct ray ray;
+	struct waves waves;
+	int hero;
+	float weight[MAX_WAVES], density[MAX_WAVES];
+	float chance;              /* density of the ray's direction, sr^-1; 0 from the camera, where no light is drawn */
+	struct random random;
+	float rgb[3];
+};
+
+enum { DRAW_FLIGHT, DRAW_ANGLE, DRAW_AZIMUTH, DRAW_ROULETTE, DRAW_LIGHT, DRAW_LIGHT_1, DRAW_LIGHT_2 };
+enum { DRAW_PIXEL_X, DRAW_PIXEL_Y, DRAW_HERO, DRAW_GROUP };
+
+FN void see(const struct tables *tab, struct path *p, int j, float radiance)
+{
+	GLOBAL const float *c = tab->colour + 3 * wave_of(p->waves, j);
+	for (int i = 0; i < 3; i++)
+		p->rgb[i] += c[i] * (p->weight[j] * radiance);
+}
+
+/* Take event[j] into the densities; returns its mean over the wavelengths, 0 if the path cannot be (it then ends). */
+FN float take_event(struct path *p, const float *event)
+{
+	float mean = 0.f;
+	for (int j = 0; j < p->waves.n; j++) {
+		p->density[j] *= event[j];
+		mean += p->density[j];
+	}
+	mean /= (float)p->waves.n;
+	for (int j = 0; j < p->waves.n; j++)
+		p->density[j] = mean > 0.f ? p->density[j] / mean : 0.f;
+	return mean;
+}
+
+FN struct path path_begin(const struct scene *s, uint32 pixel, uint32 sample)
+{
+	struct path p;
+	p.random = random_of(s->seed, pixel, sample);
+	float x = 2.f * ((float)(pixel % (uint32)s->width) + draw(&p.random, DRAW_PIXEL_X)) / (float)s->width - 1.f;
+	float y = 1.f - 2.f * ((float)(pixel / (uint32)s->width) + draw(&p.random, DRAW_PIXEL_Y)) / (float)s->height;
+	p.ray.from = load3(s->eye);
+	p.ray.along = unit3(add(load3(s->forward), add(scale(load3(s->right), x), scale(load3(s->up), y))));
+	p.ray.skip = NONE;
+	p.waves.step = s->n_groups;
+	p.waves.first = (int)(draw(&p.random, DRAW_GROUP) * (float)s->n_groups);
+	p.waves.n = (s->n_waves - p.waves.first + s->n_groups - 1) / s->n_groups;
+	p.hero = (int)(draw(&p.random, DRAW_HERO) * (float)p.waves.n);
+	for (int j = 0; j < MAX_WAVES; j++) {
+		p.weight[j] = (float)s->n_groups;
+		p.density[j] = 1.f;
+	}
+	p.chance = 0.f;
+	p.rgb[0] = p.rgb[1] = p.rgb[2] = 0.f;
+	next_vertex(&p.random);
+	return p;
+}
+
+FN float ground_distance(const struct scene *s, struct ray r)
+{
+	float t = s->has_ground ? (s->ground_height - r.from.y) * inverse(r.along.y) : FAR;
+	return t > 0.f ? t : FAR;
+}
+
+/* What lies behind everything: the environment, and suns that the ray meets by chance, weighed against drawing them. */
+FN void see_sky(const struct scene *s, const struct tables *tab, struct path *p, float chance)
+{
+	float radiance = s->environment;
+	for (int i = 0; i < s->n_lights; i++) {
+		struct vec off = sub(p->ray.along, load3(s->light[i].towards));
+		if (dot3(off, off) <= 2.f * s->light[i].cap && s->light[i].cap > 0.f) {
+			float drawn = s->light[i].density / (float)s->n_lights;
+			radiance += s->light[i].strength * (p->chance > 0.f ? chance / (chance + drawn) : 1.f);
+		}
+	}
+	for (int j = 0; j < p->waves.n; j++)
+		see(tab, p, j, p->density[j] * radiance);
+}
+
+/* Next-event estimation at a vertex: class NONE is the ground, on the side of normal. */
+FN void see_light(const struct scene *s, const struct tables *tab, struct path *p, struct vec point, int class, int id, float normal)
+{
+	if (!s->n_lights)
+		return;
+	int i = (int)(draw(&p->random, DRAW_LIGHT) * (float)s->n_lights);
+	const struct light *l = &s->light[i];
+	struct ray r = { point, load3(l->towards), id };
+	if (l->cap > 0.f) {        /* uniform over the disc, in 1 - cos */
+		float c = l->cap * draw(&p->random, DRAW_LIGHT_1);
+		r.along = around(r.along, root(c * (2.f - c)), 1.f - c, 2.f * PI * draw(&p->random, DRAW_LIGHT_2));
+	}
+	float value[MAX_WAVES] = { 0.f }, through[MAX_WAVES], chance = 0.f;
+	if (class == NONE) {
+		for (int j = 0; j < p->waves.n; j++)
+			value[j] = most(0.f, r.along.y * normal) / PI;
+		if (!(value[0] > 0.f))
+			return;
+	} else {
+		struct at_angle a = phase_locate(tab, class, angle_between(p->ray.along, r.along));
+		for (int j = 0; j < p->waves.n; j++)
+			value[j] = phase_value(tab, s->n_waves, a, wave_of(p->waves, j));
+		if (ground_distance(s, r) < FAR)
+			return;
+	}
+	transmittance(s, tab, r, FAR, p->waves, through);
+	for (int j = 0; j < p->waves.n; j++) {
+		value[j] *= p->density[j] * through[j];
+		chance += value[j];
+	}
+	chance /= (float)p->waves.n;
+	float k = l->strength * (l->cap > 0.f ? 1.f / (l->density / (float)s->n_lights + chance) : (float)s->n_lights);
+	for (int j = 0; j < p->waves.n; j++)
+		see(tab, p, j, value[j] * k);
+}
+
+/* Roulette on the throughput: survival is certain above 1/4, and 4 times the throughput below, never less than it. */
+FN int survives(struct path *p)
+{
+	float throughput = 0.f;
+	for (int j = 0; j < p->waves.n; j++)
+		throughput = most(throughput, p->weight[j] * p->density[j]);
+	float q = 4.f * throughput;
+	if (!(q < 1.f))
+		return 1;
+	if (!(draw(&p->random, DRAW_ROULETTE) < q))
+		return 0;
+	for (int j = 0; j < p->waves.n; j++)
+		p->weight[j] /= q;
+	return 1;
+}
+
+/* One flight and what happens at its end; 0 when the path is over. */
+FN int path_bounce(const struct scene *s, const struct tables *tab, struct path *p)
+{
+	float event[MAX_WAVES];
+	float t_ground = ground_distance(s, p->ray);
+	struct collision c = free_flight(s, tab, p->ray, t_ground, p->waves, p->hero, draw(&p->random, DRAW_FLIGHT), event);
+	float mean = take_event(p, event);
+	if (!(mean > 0.f))
+		return 0;
+	if (!c.happened && !(t_ground < FAR)) {
+		see_sky(s, tab, p, p->chance * mean);
+		return 0;
+	}
+	struct vec point = add(p->ray.from, scale(p->ray.along, c.t));
+	int class = c.happened ? c.class : NONE;
+	float normal = p->ray.along.y < 0.f ? 1.f : -1.f;
+	if (class == NONE)
+		point.y = s->ground_height;
+	for (int j = 0; j < p->waves.n; j++)
+		p->weight[j] *= class == NONE ? s->ground_albedo : tab->albedo[class * s->n_waves + wave_of(p->waves, j)];
+	see_light(s, tab, p, point, class, c.id, normal);
+	if (!survives(p))
+		return 0;
+	float azimuth = 2.f * PI * draw(&p->random, DRAW_AZIMUTH), theta, sn, cs;
+	if (class == NONE) {       /* cosine-distributed */
+		float u = draw(&p->random, DRAW_ANGLE);
+		cs = root(1.f - u);
+		p->ray.along = around(vec3(0.f, normal, 0.f), root(u), cs, azimuth);
+		p->chance = cs / PI;
+	} else {
+		struct at_angle a = phase_sample(tab, s->n_waves, class, wave_of(p->waves, p->hero), draw_bits(&p->random, DRAW_ANGLE), &theta);
+		for (int j = 0; j < p->waves.n; j++)
+			event[j] = phase_value(tab, s->n_waves, a, wave_of(p->waves, j));
+		p->chance = take_event(p, event);
+		sincos_of(theta, &sn, &cs);
+		p->ray.along = around(p->ray.along, sn, cs, azimuth);
+	}
+	p->ray.from = point;
+	p->ray.skip = c.id;
+	next_vertex(&p->random);
+	return p->chance > 0.f;
+}
+
+#endif

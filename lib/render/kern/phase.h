@@ -1,0 +1,77 @@
+/* phase - tabulated phase functions: values, and directions drawn exactly by them. */
+#ifndef KERN_PHASE_H
+#define KERN_PHASE_H
+
+#include "render/kern/math.h"
+#include "render/kern/scene.h"
+
+/* A scattering angle in the table of a class: between node and node + 1, fraction f. */
+struct at_angle {
+	int node;
+	float f;
+};
+
+FN struct at_angle phase_locate(const struct tables *t, int class, float theta)
+{
+	struct at_angle a;
+	int low = t->node[2 * class], high = low + t->node[2 * class + 1] - 1;
+	while (high - low > 1) {
+		int middle = (low + high) / 2;
+		if (t->theta[middle] <= theta)
+			low = middle;
+		else
+			high = middle;
+	}
+	a.node = low;
+	a.f = least(1.f, most(0.f, (theta - t->theta[low]) / (t->theta[low + 1] - t->theta[low])));
+	return a;
+}
+
+/* p in sr^-1. */
+FN float phase_value(const struct tables *t, int n_waves, struct at_angle a, int wave)
+{
+	float p0 = t->p[a.node * n_waves + wave], p1 = t->p[(a.node + 1) * n_waves + wave];
+	return p0 + (p1 - p0) * a.f;
+}
+
+/* An angle with the density p(theta) sin(theta) of a wavelength: the interval by its tabulated probability, the place in it by
+ * inverting the integral of (linear p) x sin, sin being a cubic over an interval (at most 1 degree: relative error 4e-9).
+ * Newton kept in a bracket; six steps reach float accuracy. */
+FN struct at_angle phase_sample(const struct tables *t, int n_waves, int class, int wave, uint32 u, float *theta)
+{
+	int low = t->node[2 * class], last = low + t->node[2 * class + 1] - 1, high = last;
+	while (high - low > 1) {
+		int middle = (low + high) / 2;
+		if (t->cdf[middle * n_waves + wave] <= u)
+			low = middle;
+		else
+			high = middle;
+	}
+	uint32 begin = t->cdf[low * n_waves + wave], width = t->cdf[high * n_waves + wave] - begin;
+	float v = ((float)(u - begin) + 0.5f) / (float)width;
+	float angle = t->theta[low], h = t->theta[high] - angle, s, c;
+	float p0 = t->p[low * n_waves + wave], d = t->p[high * n_waves + wave] - p0;
+	sincos_of(angle, &s, &c);
+	/* density (p0 + d f) (s + c1 f + c2 f^2 + c3 f^3) = q0 + q1 f + .. + q4 f^4 */
+	float c1 = c * h, c2 = -0.5f * s * h * h, c3 = -0.166666667f * c * h * h * h;
+	float q0 = p0 * s, q1 = p0 * c1 + d * s, q2 = p0 * c2 + d * c1, q3 = p0 * c3 + d * c2, q4 = d * c3;
+	float g1 = 0.5f * q1, g2 = 0.333333333f * q2, g3 = 0.25f * q3, g4 = 0.2f * q4;
+	float target = least(v, 1.f) * (q0 + g1 + g2 + g3 + g4), f = v, lo = 0.f, hi = 1.f;
+	for (int i = 0; i < 6; i++) {
+		float excess = f * (q0 + f * (g1 + f * (g2 + f * (g3 + f * g4)))) - target;
+		float slope = q0 + f * (q1 + f * (q2 + f * (q3 + f * q4)));
+		if (excess > 0.f)
+			hi = f;
+		else
+			lo = f;
+		float next = f - excess / slope;
+		f = next > lo && next < hi ? next : 0.5f * (lo + hi);
+	}
+	struct at_angle a;
+	a.node = low;
+	a.f = f;
+	*theta = angle + h * f;
+	return a;
+}
+
+#endif

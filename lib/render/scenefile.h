@@ -1,0 +1,31 @@
+/* scenefile - a scene as the user wrote it; scene(5). */
+#ifndef RENDER_SCENEFILE_H
+#define RENDER_SCENEFILE_H
+
+#include "render/kern/scene.h"
+
+struct sun {
+	double direction[3];       /* the way the light travels */
+	double irradiance;         /* perpendicular to the beam */
+	double angle;              /* degrees across */
+};
+
+struct scenefile {
+	double position[3], target[3], up[3], fov;     /* camera; fov in degrees along the longer side */
+	int width, height;
+	char *medium;              /* path, relative names resolved against the scene's folder */
+	double medium_position[3];
+	int has_ground;
+	double ground_height, ground_albedo;
+	double environment;
+	int n_suns;
+	struct sun sun[MAX_LIGHTS];
+	char *history;             /* one line: the scene in canonical form, without file names */
+};
+
+/* scenefile_read - read and check a scene; dies with its line on a misspelt or missing key or a bad value. */
+void scenefile_read(const char *path, struct scenefile *s);
+
+void scenefile_free(struct scenefile *s);
+
+#endif

@@ -1,0 +1,168 @@
+/* imgcmp - how two images differ, channel by channel, pixel by pixel and in block means. */
+#include "base/die.h"
+#include "base/opt.h"
+#include "base/out.h"
+#include "image/exr.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define RELATIVE_FLOOR 0.01     /* keeps relMSE finite in the dark */
+
+struct sums {
+	double square, relative, max, block_square, block_max;
+	size_t n, column, row;
+};
+
+static double value(const struct exr_channel *c, size_t i)
+{
+	uint32_t bits;
+	if (!c->is_uint)
+		return c->data[i];
+	memcpy(&bits, &c->data[i], sizeof bits);
+	return bits;
+}
+
+/* Not-a-number and infinities equal themselves; against anything else the difference is infinite. */
+static double difference(double a, double b)
+{
+	if (a == b || (isnan(a) && isnan(b)))
+		return 0;
+	return isfinite(a) && isfinite(b) ? a - b : INFINITY;
+}
+
+static void block(struct sums *s, const struct exr *image, const struct exr_channel *a, const struct exr_channel *b,
+                  size_t x0, size_t y0, size_t side)
+{
+	size_t width = (size_t)image->width, x1 = x0 + side, y1 = y0 + side, n = 0;
+	double sum = 0;
+	if (x1 > width)
+		x1 = width;
+	if (y1 > (size_t)image->height)
+		y1 = (size_t)image->height;
+	for (size_t y = y0; y < y1; y++)
+		for (size_t x = x0; x < x1; x++, n++) {
+			double v = value(a, y * width + x), d = difference(v, value(b, y * width + x));
+			sum += d;
+			s->square += d * d;
+			s->relative += d == 0 ? 0 : d * d / ((isfinite(v) ? v * v : 0) + RELATIVE_FLOOR);
+			if (fabs(d) > s->max) {
+				s->max = fabs(d);
+				s->column = x;
+				s->row = y;
+			}
+		}
+	sum /= (double)n;
+	s->block_square += (double)n * sum * sum;
+	s->block_max = fmax(s->block_max, fabs(sum));
+	s->n += n;
+}
+
+static void compare(struct sums *s, const struct exr *image, const struct exr_channel *a, const struct exr_channel *b, size_t side)
+{
+	for (size_t y = 0; y < (size_t)image->height; y += side)
+		for (size_t x = 0; x < (size_t)image->width; x += side)
+			block(s, image, a, b, x, y, side);
+}
+
+static void print(FILE *f, const char *name, const struct sums *s)
+{
+	double n = (double)s->n;
+	fprintf(f, "%-15s %12.6g %12.6g %12.6g %12.6g %12.6g %6zu %6zu\n", name, sqrt(s->square / n), s->relative / n, s->max,
+	        sqrt(s->block_square / n), s->block_max, s->column, s->row);
+}
+
+/* Is the channel to be compared? */
+static int chosen(const char *names, const char *name)
+{
+	size_t n = strlen(name);
+	for (const char *w = names; w; w = strchr(w, ',') ? strchr(w, ',') + 1 : NULL)
+		if (!strncmp(w, name, n) && (w[n] == ',' || !w[n]))
+			return 1;
+	return !names;
+}
+
+static void must_exist(const char *names, const struct exr *a, const struct exr *b)
+{
+	char *copy = xtext("%s", names), *save = NULL;
+	for (char *word = strtok_r(copy, ",", &save); word; word = strtok_r(NULL, ",", &save))
+		if (!exr_find(a, word) && !exr_find(b, word))
+			die("--channels", "neither image has a channel %s", word);
+	free(copy);
+}
+
+/* Channels that only one has. */
+static int alone(FILE *f, const char *names, const struct exr *a, const struct exr *b, const char *path)
+{
+	int n = 0;
+	for (int i = 0; i < a->n; i++)
+		if (chosen(names, a->channel[i].name) && !exr_find(b, a->channel[i].name)) {
+			fprintf(f, "channel %s: only in %s\n", a->channel[i].name, path);
+			n++;
+		}
+	return n;
+}
+
+int main(int argc, char **argv)
+{
+	double rms = NAN, max = NAN;
+	long long side = 0;
+	const char *names = NULL;
+	const struct opt opts[] = {
+		{ "--rms", OPT_REAL, &rms, 0, DBL_MAX, "E", "let the root mean square of the difference be up to E", 0 },
+		{ "--max", OPT_REAL, &max, 0, DBL_MAX, "E", "let no difference be above E", 0 },
+		{ "--block", OPT_INT, &side, 0, EXR_SIDE_MAX, "N", "hold the tolerances against means of N x N pixels", 0 },
+		{ "--channels", OPT_TEXT, &names, 0, 0, "A[,B..]", "compare these channels only", 0 },
+		OPT_END
+	};
+	const struct opt_tool tool = { "[OPTION].. A.exr B.exr", "Compare two images: exit 0 if they agree, 1 if they differ.", opts, 0 };
+	struct opt_line args = opt_parse(&tool, argc, argv);
+	if (args.n != 2)
+		die(NULL, "needs two images; see imgcmp --help");
+	if (!strcmp(args.operand[0], "-") && !strcmp(args.operand[1], "-"))
+		die(NULL, "only one of the images can be standard input");
+	static struct exr a, b;
+	exr_read(args.operand[0], &a);
+	exr_read(args.operand[1], &b);
+	if (a.width != b.width || a.height != b.height)
+		die(args.operand[1], "is %d x %d pixels, %s is %d x %d", b.width, b.height, args.operand[0], a.width, a.height);
+
+	if (names)
+		must_exist(names, &a, &b);
+	struct out out = out_open(NULL, 0);
+	int differ = alone(out.f, names, &a, &b, args.operand[0]) + alone(out.f, names, &b, &a, args.operand[1]) > 0, common = 0;
+	struct sums all = { 0 };
+	fprintf(out.f, "%-15s %12s %12s %12s %12s %12s %6s %6s\n", "channel", "rms", "relmse", "max", "block_rms", "block_max",
+	        "column", "row");
+	for (int i = 0; i < a.n; i++) {
+		const struct exr_channel *other = exr_find(&b, a.channel[i].name);
+		if (!other || !chosen(names, a.channel[i].name))
+			continue;
+		struct sums s = { 0 };
+		compare(&s, &a, &a.channel[i], other, side ? (size_t)side : 8);
+		print(out.f, a.channel[i].name, &s);
+		double got_rms = sqrt((side ? s.block_square : s.square) / (double)s.n), got_max = side ? s.block_max : s.max;
+		differ |= isnan(rms) && isnan(max) ? got_max > 0 : got_rms > rms || got_max > max || isinf(got_max);
+		all.square += s.square;
+		all.relative += s.relative;
+		all.block_square += s.block_square;
+		all.block_max = fmax(all.block_max, s.block_max);
+		all.n += s.n;
+		if (s.max > all.max) {
+			all.max = s.max;
+			all.column = s.column;
+			all.row = s.row;
+		}
+		common++;
+	}
+	if (!common)
+		die(args.operand[1], "has no channel to compare with %s", args.operand[0]);
+	print(out.f, "all", &all);
+	exr_free(&a);
+	exr_free(&b);
+	out_close(&out);
+	return differ;
+}

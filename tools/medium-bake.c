@@ -1,0 +1,132 @@
+/* medium-bake - particles, or a size distribution with a concentration, and their optics become a medium file. */
+#include "base/die.h"
+#include "base/opt.h"
+#include "base/tab.h"
+#include "medium/grid.h"
+#include "medium/optics.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The size distribution's classes give the expected counts. */
+static char *from_psd(const char *path, double concentration, struct medium *m)
+{
+	struct tab *t = tab_open(path);
+	int radius = tab_need(t, "radius", "um"), weight = tab_need(t, "weight", "1");
+	double row[TAB_COLS], sum = 0;
+	while (tab_next(t, row)) {
+		unsigned long long number = (unsigned long long)tab_row(t);
+		int class = row[radius] > 0 ? optics_class(m, row[radius]) : -1;
+		if (class < 0)
+			die(tab_path(t), "row %llu: radius %g um fits none of the %d classes of --xsect", number, row[radius], m->n_classes);
+		if (!(row[weight] >= 0) || !isfinite(row[weight]))
+			die(tab_path(t), "row %llu: weight %g is not a finite number of at least 0", number, row[weight]);
+		m->count[class] += row[weight];
+		sum += row[weight];
+	}
+	if (!(fabs(sum - 1) <= 1e-6))
+		die(tab_path(t), "the weights sum to %g, not to 1", sum);
+	for (int k = 0; k < m->n_classes; k++)
+		m->count[k] *= concentration * medium_volume(m) / sum;
+	char *history = xtext("%s", tab_history(t));
+	tab_close(t);
+	return history;
+}
+
+static int outside(const struct medium *m, const double *q)
+{
+	if (m->round)
+		return sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]) > m->half[0] * (1 + 1e-6);
+	return fabs(q[0]) > m->half[0] * (1 + 1e-6) || fabs(q[1]) > m->half[1] * (1 + 1e-6) || fabs(q[2]) > m->half[2] * (1 + 1e-6);
+}
+
+static char *from_particles(const char *path, int bounded, struct medium *m)
+{
+	struct tab *t = tab_open(path);
+	int x = tab_need(t, "x", "m"), y = tab_need(t, "y", "m"), z = tab_need(t, "z", "m"), radius = tab_need(t, "radius", "um");
+	double row[TAB_COLS], low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY };
+	size_t room = 0;
+	while (tab_next(t, row)) {
+		unsigned long long number = (unsigned long long)tab_row(t);
+		double q[3] = { row[x], row[y], row[z] };
+		int32_t class = row[radius] > 0 ? optics_class(m, row[radius]) : -1;
+		if (class < 0)
+			die(tab_path(t), "row %llu: radius %g um fits none of the %d classes of --xsect", number, row[radius], m->n_classes);
+		for (int a = 0; a < 3; a++) {
+			if (!(fabs(q[a]) < 1e9))
+				die(tab_path(t), "row %llu: a position is not a finite length", number);
+			low[a] = fmin(low[a], q[a]);
+			high[a] = fmax(high[a], q[a]);
+		}
+		if (bounded && outside(m, q))
+			die(tab_path(t), "row %llu: the particle lies outside the box or sphere given", number);
+		if (m->n_particles == room) {
+			room = room ? 2 * room : 1024;
+			m->particle = xgrow(m->particle, room, 4 * sizeof *m->particle);
+		}
+		float *to = m->particle + 4 * m->n_particles;
+		for (int a = 0; a < 3; a++)
+			to[a] = (float)q[a];
+		memcpy(&to[3], &class, 4);
+		m->count[class]++;
+		if (++m->n_particles > INT32_MAX / 4)
+			die(tab_path(t), "more than %d particles", INT32_MAX / 4);
+	}
+	if (!m->n_particles)
+		die(tab_path(t), "has no rows");
+	/* Without a box: the bounding box of the centres about the origin, widened by what n uniform centres leave free on the
+	 * average. */
+	for (int a = 0; a < 3 && !bounded; a++)
+		m->half[a] = fmax(fabs(low[a]), fabs(high[a])) * (1 + 1.0 / (double)m->n_particles) + 1e-9 * m->radius[m->n_classes - 1];
+	char *history = xtext("%s", tab_history(t));
+	tab_close(t);
+	return history;
+}
+
+int main(int argc, char **argv)
+{
+	const char *xsect = NULL, *phase = NULL, *psd = NULL, *output = NULL;
+	double concentration = NAN, sphere = NAN, box[3] = { NAN, NAN, NAN };
+	const struct opt opts[] = {
+		{ "--xsect", OPT_FILE, &xsect, 0, 0, "FILE", "cross sections by class and wavelength, from xsect", 0 },
+		{ "--phase", OPT_FILE, &phase, 0, 0, "FILE", "phase functions, from mie-phase, goa-phase or txttab", 0 },
+		{ "--psd", OPT_FILE, &psd, 0, 0, "FILE", "a size distribution instead of particles", 0 },
+		{ "--concentration", OPT_PER_M3, &concentration, 0, DBL_MAX, "N/m3", "its particles a volume", 0 },
+		{ "--box", OPT_BOX, box, 1e-9, 1e6, "X,Y,Z", "the medium fills a box", 0 },
+		{ "--sphere", OPT_M, &sphere, 1e-9, 1e6, "R", "the medium fills a sphere", 0 },
+		{ "-o", OPT_FILE, &output, 0, 0, "FILE", "the medium file", 1 },
+		OPT_END
+	};
+	const struct opt_tool tool = { "--xsect FILE --phase FILE [OPTION].. -o FILE [PARTICLES]",
+		"Bake particles, or a size distribution, and their optics into a medium.", opts, 0 };
+	struct opt_line args = opt_parse(&tool, argc, argv);
+	struct medium m = { 0 };
+	int bounded = !isnan(sphere) || !isnan(box[0]);
+	if (!xsect || !phase || !output)
+		die(!xsect ? "--xsect" : !phase ? "--phase" : "-o", "is needed");
+	if (!isnan(sphere) && !isnan(box[0]))
+		die("--sphere", "excludes --box");
+	if (args.n > (psd ? 0 : 1))
+		die(args.operand[args.n - 1], psd ? "--psd takes no particles" : "one table of particles at most");
+	if (psd && isnan(concentration))
+		die("--concentration", "is needed with --psd");
+	if (psd && !bounded)
+		die("--box", "or --sphere is needed with --psd");
+	if (!psd && !isnan(concentration))
+		die("--concentration", "needs --psd");
+	m.round = !isnan(sphere);
+	for (int a = 0; a < 3 && bounded; a++)
+		m.half[a] = m.round ? sphere : box[a] / 2;
+
+	char *history = optics_cross_sections(xsect, &m);
+	char *matter = psd ? from_psd(psd, concentration, &m) : from_particles(args.n ? args.operand[0] : NULL, bounded, &m);
+	char *phases = optics_phase(phase, &m);
+	m.history = tab_join(history, phases, matter, args.history, NULL);
+	if (m.n_particles)
+		grid_build(&m);
+	medium_write(output, &m);
+	return 0;
+}

@@ -1,0 +1,118 @@
+/* vrender - render a scene: a medium under its lights, by path tracing. */
+#include "base/die.h"
+#include "base/opt.h"
+#include "base/tab.h"
+#include "image/exr.h"
+#include "render/job.h"
+#include "render/kern/film.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#define BATCH_SECONDS 0.5      /* between two looks at the clock */
+
+static double now(void)
+{
+	struct timespec t;
+	clock_gettime(CLOCK_MONOTONIC, &t);
+	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void progress(uint32 done, uint32 all, double seconds)
+{
+	fprintf(stderr, "\rvrender: %3.0f %%, %.0f s left ", 100.0 * done / all, seconds * (all - done) / done);
+	if (done == all)
+		fprintf(stderr, "\r%40s\r", "");
+}
+
+/* All samples, in batches that grow to the time between two looks at the clock. */
+static void render(struct job *j, struct cl *cl, uint32 samples, int threads)
+{
+	int visible = isatty(STDERR_FILENO);
+	double start = now();
+	for (uint32 done = 0, batch = 1; done < samples;) {
+		double before = now();
+		batch = batch < samples - done ? batch : samples - done;
+		if (cl)
+			cl_render(cl, done, batch);
+		else
+			render_c(j, done, batch, threads);
+		done += batch;
+		double took = now() - before;
+		batch = took < BATCH_SECONDS ? batch * 2 : batch > 1 && took > 2 * BATCH_SECONDS ? batch / 2 : batch;
+		if (visible)
+			progress(done, samples, now() - start);
+	}
+}
+
+static void save(const char *path, const struct job *j, uint32 samples, char *history)
+{
+	struct exr image = { .width = j->scene.width, .height = j->scene.height, .history = history };
+	for (int c = 0; c < 3; c++) {
+		float *out = exr_add(&image, (const char *[]){ "R", "G", "B" }[c]);
+		for (size_t i = 0; i < (size_t)image.width * (size_t)image.height; i++)
+			out[i] = (float)((double)j->film[3 * i + (size_t)c] / FILM_UNIT / samples);
+	}
+	exr_write(path, &image);
+	exr_free(&image);
+}
+
+int main(int argc, char **argv)
+{
+	const char *output = NULL;
+	long long samples = 64, seed = 1, threads = sysconf(_SC_NPROCESSORS_ONLN), device = 0;
+	int transport = -1, backend = 0, list = 0, verbose = 0;
+	const struct opt opts[] = {
+		{ "-o", OPT_FILE, &output, 0, 0, "FILE.exr", "the image", 1 },
+		{ "--samples", OPT_INT, &samples, 1, 1e9, "N", "paths a pixel", 0 },
+		{ "--seed", OPT_INT, &seed, 0, 4294967295.0, "S", "of the random numbers", 0 },
+		{ "--transport", OPT_CHOICE, &transport, 0, 0, "explicit|continuous", "model of the medium; default: explicit for particles", 0 },
+		{ "--backend", OPT_CHOICE, &backend, 0, 0, "c|opencl", "what runs the kernels", 1 },
+		{ "--device", OPT_INT, &device, 0, 63, "I", "OpenCL device", 1 },
+		{ "--list-devices", OPT_FLAG, &list, 0, 0, NULL, "list the OpenCL devices and exit", 1 },
+		{ "--threads", OPT_INT, &threads, 1, 1024, "N", "threads of the C backend", 1 },
+		{ "--verbose", OPT_FLAG, &verbose, 0, 0, NULL, "say which model is used, and why", 1 },
+		OPT_END
+	};
+	const struct opt_tool tool = { "[OPTION].. SCENE -o FILE.exr", "Render a scene.", opts, 0 };
+	struct opt_line args = opt_parse(&tool, argc, argv);
+	if (list) {
+		cl_list();
+		return fflush(stdout) ? 2 : 0;
+	}
+	if (args.n != 1)
+		die(NULL, "one scene is needed; see vrender --help");
+	if (!output)
+		die("-o", "is needed");
+	struct scenefile file;
+	struct medium medium;
+	struct job job;
+	scenefile_read(args.operand[0], &file);
+	medium_open(file.medium, &medium);
+	if (transport < 0)
+		transport = medium.n_particles ? TRANSPORT_EXPLICIT : TRANSPORT_CONTINUOUS;
+	else if (transport == TRANSPORT_EXPLICIT && !medium.n_particles)
+		die(file.medium, "has no particles for --transport explicit; bake it from particles, or render it as continuous");
+	job_make(&job, &file, &medium, transport, (uint32)seed);
+	if (verbose)
+		warn(file.medium, "%s: %zu particles, %d classes, %d wavelengths, optical depth %.4g along the shortest axis",
+		     transport == TRANSPORT_EXPLICIT ? "explicit" : "continuous", medium.n_particles, medium.n_classes, medium.n_waves,
+		     job.tables.extinction[0] * 2 * fmin(medium.half[0], fmin(medium.half[1], medium.half[2])));
+
+	struct cl *cl = backend ? cl_start(&job, (int)device) : NULL;
+	render(&job, cl, (uint32)samples, (int)threads);
+	if (cl)
+		cl_finish(cl);
+	if (job.overflow)
+		die(args.operand[0], "the light is too strong: a pixel's samples sum to more than 2^32; scale the lights down");
+	save(output, &job, (uint32)samples, tab_join(medium.history, file.history, args.history, NULL));
+	job_free(&job);
+	medium_close(&medium);
+	scenefile_free(&file);
+	free(args.history);
+	return 0;
+}
