@@ -4,7 +4,7 @@
 #ifndef OPTICS_MIE_H
 #define OPTICS_MIE_H
 
-#include <complex.h>
+#include "base/cmplx.h"
 
 #define MIE_X_MAX 1e7
 

@@ -9,7 +9,7 @@
 #include "base/opt.h"
 #include "base/tab.h"
 
-#include <complex.h>
+#include "base/cmplx.h"
 
 /* The options as given; zero-initialised, but for host (SIZES_INIT). */
 struct sizes_options {

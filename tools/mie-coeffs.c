@@ -1,0 +1,70 @@
+/* mie-coeffs - partial-wave coefficients of spheres by Lorenz-Mie theory. */
+#include "base/die.h"
+#include "pipe/coeffs.h"
+
+#include <string.h>
+
+#define BATCH 256
+
+/* Up to BATCH waves, their coefficients together bounded in memory by their number of terms, which x tells beforehand. */
+static int gather(struct coeffs *in, struct waves *w)
+{
+	double x = 0;
+	int n = 0;
+	while (n < BATCH && x < 1e6 && coeffs_next(in, &w[n]))
+		x += w[n++].size.x;
+	return n;
+}
+
+static void put(struct tab_out *out, struct coeffs *in, int ncarried, const struct waves *w)
+{
+	double row[TAB_COLS];
+	int k = coeffs_key(in, &w->size, row);
+	memcpy(row + k + COEFFS_COLS, w->size.carried, (size_t)ncarried * sizeof *row);
+	for (int l = 1; l <= w->n; l++) {
+		coeffs_values(w, l, row + k);
+		tab_put(out, row);
+	}
+}
+
+static void run(struct coeffs *in, const char *output, const char *command)
+{
+	static struct waves w[BATCH];
+	struct tab_col cols[TAB_COLS];
+	int k = coeffs_columns(in, cols);
+	memcpy(cols + k, coeffs_cols, sizeof coeffs_cols);
+	k += COEFFS_COLS;
+	int ncarried = coeffs_carried(in, k, cols, cols + k), n = gather(in, w), failed = 0;
+	struct tab_out *out = tab_create(output, coeffs_history(in), command, k + ncarried, cols);
+	for (; n; n = gather(in, w)) {
+#pragma omp parallel for schedule(dynamic) reduction(|:failed) if (n > 1)
+		for (int i = 0; i < n; i++)
+			failed |= waves_solve(&w[i]) != 0;
+		if (failed)
+			die(NULL, "out of memory");
+		for (int i = 0; i < n; i++) {
+			put(out, in, ncarried, &w[i]);
+			waves_free(&w[i]);
+		}
+	}
+	tab_finish(out);
+}
+
+int main(int argc, char **argv)
+{
+	struct sizes_options sizes = SIZES_INIT;
+	const char *output = NULL;
+	const struct opt opts[] = {
+		SIZES_OPTIONS(sizes),
+		OPT_OUTPUT(&output),
+		OPT_END
+	};
+	const struct opt_tool tool = { "[OPTION].. [SIZES]", "Partial-wave coefficients of spheres by Lorenz-Mie theory.", opts, 0 };
+	struct opt_line args = opt_parse(&tool, argc, argv);
+	if (args.n > 1)
+		die(args.operand[1], "one table at most");
+	struct coeffs *in = coeffs_open_sizes(&sizes, args.n ? args.operand[0] : NULL);
+	run(in, output, args.history);
+	coeffs_close(in);
+	return 0;
+}

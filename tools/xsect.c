@@ -1,0 +1,149 @@
+/* xsect - cross sections and asymmetry parameter of spheres. */
+#include "base/die.h"
+#include "optics/goa.h"
+#include "optics/mie.h"
+#include "pipe/coeffs.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define BATCH 256
+#define GOA_ORDER 3    /* rays of the phase function, as published */
+#define GOA_FAILS 1    /* estimated error from which on the model does not hold (goa.h) */
+
+enum { MIE, GOA };
+static const char *const names[] = { "mie", "goa" };
+static const double codes[] = { 1, 3 };    /* as in the column method */
+
+struct answer {
+	struct efficiencies q;
+	double error;
+	int failed;
+};
+
+/* The estimate that is worst in this run. */
+struct worst {
+	struct size size;
+	double error;
+};
+
+static void answer(int method, struct waves *w, struct answer *a)
+{
+	if (method == GOA) {
+		/* The published extinction formula has the ray of one chord only, the phase function has three. */
+		double ignored;
+		struct efficiencies rays = goa_efficiencies(w->size.x, w->size.m, GOA_ORDER, &ignored);
+		a->q = goa_efficiencies(w->size.x, w->size.m, 1, &a->error);
+		a->q.g = rays.g;
+		a->q.back = rays.back;
+		return;
+	}
+	a->failed = waves_solve(w);
+	if (a->failed)
+		return;
+	a->q = mie_efficiencies(w->size.x, w->lossless, w->n, w->a, w->b);
+	a->error = mie_error(w->size.x, w->n, w->a, w->b);
+}
+
+static int gather(struct coeffs *in, struct waves *w)
+{
+	double x = 0;
+	int n = 0;
+	while (n < BATCH && x < 1e6 && coeffs_next(in, &w[n]))
+		x += w[n++].size.x;
+	return n;
+}
+
+static int columns(int by_x, struct tab_col *cols)
+{
+	static const struct tab_col by_size[] = {
+		{ "c_ext", TAB_F64, "um^2" }, { "c_sca", TAB_F64, "um^2" }, { "c_abs", TAB_F64, "um^2" },
+		{ "g", TAB_F64, "1" }, { "method", TAB_I32, "1" }, { "error", TAB_F64, "1" },
+	}, by_parameter[] = {
+		{ "q_ext", TAB_F64, "1" }, { "q_sca", TAB_F64, "1" }, { "q_abs", TAB_F64, "1" },
+		{ "g", TAB_F64, "1" }, { "q_back", TAB_F64, "1" }, { "method", TAB_I32, "1" }, { "error", TAB_F64, "1" },
+	};
+	memcpy(cols, by_x ? by_parameter : by_size, by_x ? sizeof by_parameter : sizeof by_size);
+	return by_x ? 7 : 6;
+}
+
+static int values(int by_x, int method, const struct size *size, const struct answer *a, double *row)
+{
+	double area = by_x ? 1 : M_PI * size->radius * size->radius;
+	int n = 0;
+	row[n++] = a->q.ext * area;
+	row[n++] = a->q.sca * area;
+	row[n++] = a->q.abs * area;
+	row[n++] = a->q.g;
+	if (by_x)
+		row[n++] = a->q.back;
+	row[n++] = codes[method];
+	row[n++] = a->error;
+	return n;
+}
+
+static struct worst run(struct coeffs *in, int method, const char *output, const char *command)
+{
+	static struct waves w[BATCH];
+	static struct answer a[BATCH];
+	struct worst worst = { .error = -1 };
+	struct tab_col cols[TAB_COLS];
+	double row[TAB_COLS];
+	int by_x = coeffs_by_x(in), k = coeffs_columns(in, cols);
+	k += columns(by_x, cols + k);
+	int ncarried = coeffs_carried(in, k, cols, cols + k), n = gather(in, w);
+	struct tab_out *out = tab_create(output, coeffs_history(in), command, k + ncarried, cols);
+	for (; n; n = gather(in, w)) {
+#pragma omp parallel for schedule(dynamic) if (n > 1)
+		for (int i = 0; i < n; i++)
+			answer(method, &w[i], &a[i]);
+		for (int i = 0; i < n; i++) {
+			if (a[i].failed)
+				die(NULL, "out of memory");
+			int j = coeffs_key(in, &w[i].size, row);
+			j += values(by_x, method, &w[i].size, &a[i], row + j);
+			memcpy(row + j, w[i].size.carried, (size_t)ncarried * sizeof *row);
+			tab_put(out, row);
+			if (!(a[i].error <= worst.error))
+				worst = (struct worst){ w[i].size, a[i].error };
+			waves_free(&w[i]);
+		}
+	}
+	tab_finish(out);
+	return worst;
+}
+
+int main(int argc, char **argv)
+{
+	struct sizes_options sizes = SIZES_INIT;
+	int method = MIE, verbose = 0;
+	const char *output = NULL;
+	const struct opt opts[] = {
+		SIZES_OPTIONS(sizes),
+		{ "--method", OPT_CHOICE, &method, 0, 0, "mie|goa", "Lorenz-Mie theory, or geometrical optics approximation", 0 },
+		{ "--verbose", OPT_FLAG, &verbose, 0, 0, NULL, "say which method was used and its estimated error", 1 },
+		OPT_OUTPUT(&output),
+		OPT_END
+	};
+	const struct opt_tool tool = { "[OPTION].. [SIZES | COEFFICIENTS]",
+		"Cross sections and asymmetry parameter of spheres.", opts, 0 };
+	struct opt_line args = opt_parse(&tool, argc, argv);
+	if (args.n > 1)
+		die(args.operand[1], "one table at most");
+	struct coeffs *in = coeffs_open(&sizes, args.n ? args.operand[0] : NULL);
+	if (coeffs_read(in) && method != MIE)
+		die("--method", "%s has no use for the coefficients in %s", names[method], coeffs_read(in));
+	struct worst w = run(in, method, output, args.history);
+	char at[96];
+	if (coeffs_by_x(in))
+		snprintf(at, sizeof at, "x = %.9g", w.size.x);
+	else
+		snprintf(at, sizeof at, "radius %.9g um, wavelength %.9g um", w.size.radius, w.size.wavelength);
+	if (method == GOA && !(w.error < GOA_FAILS))
+		warn("goa", "%s: geometrical optics does not hold there (estimated error %.2g, worst of this run)", at, w.error);
+	if (verbose)
+		warn("verbose", "method %s; estimated error at most %.2g, at %s", names[method], w.error, at);
+	coeffs_close(in);
+	return 0;
+}
