@@ -12,6 +12,7 @@
 
 #define NODES 8        /* nodes of a panel's quadrature */
 #define CHUNK 4096    /* angles of goa_amplitudes whose rays are held at once */
+#define GLORY 4       /* highest order looked at for forward glories */
 #define GRIDS 16      /* sizes up to 2^0 .. beyond 2^14 */
 
 /* Gauss-Legendre on [-1, 1], Abramowitz and Stegun table 25.4. */
@@ -39,6 +40,7 @@ struct goa {
 	int order;
 	struct caustic caustic[GOA_ORDER_MAX + 1];
 	struct beams asked;
+	struct beams front, back;    /* the axes; the front one up to GLORY, for the estimate of errors */
 	struct beams grid[GRIDS];    /* for the norm, by size */
 	double *weight[GRIDS];       /* with 2 pi sin theta */
 };
@@ -108,11 +110,12 @@ static void beams_free(struct beams *b)
 	memset(b, 0, sizeof *b);
 }
 
-static int beams_find(const struct goa *g, int n, const double *theta, struct beams *b)
+static int beams_find(const struct goa *g, int order, int n, const double *theta, struct beams *b)
 {
 	size_t room = 0, used = 0, most = 0;
-	for (int p = 0; p <= g->order; p++)
+	for (int p = 0; p <= order; p++)
 		most += RAYS_MAX(p);
+	memset(b, 0, sizeof *b);
 	b->n = n;
 	b->theta = malloc((n ? (size_t)n : 1) * sizeof *b->theta);
 	b->first = malloc(((size_t)n + 1) * sizeof *b->first);
@@ -128,7 +131,7 @@ static int beams_find(const struct goa *g, int n, const double *theta, struct be
 				goto no_memory;
 			b->beam = more;
 		}
-		used += (size_t)trace(g->m, g->order, g->caustic, theta[k], b->beam + used);
+		used += (size_t)trace(g->m, order, g->caustic, theta[k], b->beam + used);
 	}
 	b->first[n] = used;
 	return 0;
@@ -145,7 +148,7 @@ struct cap {
 
 static void caps(const struct goa *g, double x, struct cap *cap)
 {
-	for (int p = 1; p <= g->order; p++) {
+	for (int p = 1; p <= g->order || p <= GLORY; p++) {
 		const struct caustic *c = &g->caustic[p];
 		double u = x * cos(c->incidence);
 		cap[p].rainbow = isnan(c->tau) ? 0 : cbrt(c->bend / (2 * u * u));
@@ -237,7 +240,7 @@ static int grid_new(struct goa *g, double x, struct beams *b, double **weights)
 			w[i] = w[mirror] = 2 * M_PI * sin(t * (M_PI / 180)) * weight[j] * (at[1] - at[0]) / 2 * (M_PI / 180);
 		}
 	}
-	if (beams_find(g, n, theta, b))
+	if (beams_find(g, g->order, n, theta, b))
 		goto no_memory;
 	free(theta);
 	*weights = w;
@@ -273,20 +276,20 @@ static int integrals(struct goa *g, double x, double *all, double *along)
 	return status;
 }
 
-struct goa *goa_new(double complex m, int order, int n, const double *theta)
+struct goa *goa_new(double complex m, int order)
 {
 	struct goa *g = calloc(1, sizeof *g);
 	if (!g)
 		return NULL;
 	g->m = m;
 	g->order = order;
-	for (int p = 0; p <= order; p++)
+	for (int p = 0; p <= order || p <= GLORY; p++)
 		g->caustic[p] = rays_caustic(creal(m), p);
-	if (beams_find(g, n, theta, &g->asked)) {
-		free(g);
-		return NULL;
-	}
-	return g;
+	if (!beams_find(g, order > GLORY ? order : GLORY, 1, (double[]){ 0 }, &g->front) &&
+	    !beams_find(g, order, 1, (double[]){ 180 }, &g->back))
+		return g;
+	goa_free(g);
+	return NULL;
 }
 
 void goa_free(struct goa *g)
@@ -294,6 +297,8 @@ void goa_free(struct goa *g)
 	if (!g)
 		return;
 	beams_free(&g->asked);
+	beams_free(&g->front);
+	beams_free(&g->back);
 	for (int k = 0; k < GRIDS; k++) {
 		beams_free(&g->grid[k]);
 		free(g->weight[k]);
@@ -301,29 +306,36 @@ void goa_free(struct goa *g)
 	free(g);
 }
 
-int goa_at(struct goa *g, double x, double complex *s1, double complex *s2, double *norm)
+int goa_aim(struct goa *g, int n, const double *theta)
 {
-	double along;
+	if (n && n == g->asked.n && !memcmp(theta, g->asked.theta, (size_t)n * sizeof *theta))
+		return 0;
+	beams_free(&g->asked);
+	return beams_find(g, g->order, n, theta, &g->asked);
+}
+
+void goa_at(const struct goa *g, double x, double complex *s1, double complex *s2)
+{
 	amplitudes(g, &g->asked, x, s1, s2);
-	return norm ? integrals(g, x, norm, &along) : 0;
 }
 
 int goa_amplitudes(double x, double complex m, int order, int n, const double *theta, double complex *s1, double complex *s2)
 {
-	for (int k = 0; k < n; k += CHUNK) {
-		struct goa *g = goa_new(m, order, n - k < CHUNK ? n - k : CHUNK, theta + k);
-		if (!g)
-			return -1;
-		goa_at(g, x, s1 + k, s2 + k, NULL);
-		goa_free(g);
+	struct goa *g = goa_new(m, order);
+	int failed = !g;
+	for (int k = 0; k < n && !failed; k += CHUNK) {
+		failed = goa_aim(g, n - k < CHUNK ? n - k : CHUNK, theta + k);
+		if (!failed)
+			goa_at(g, x, s1 + k, s2 + k);
 	}
-	return 0;
+	goa_free(g);
+	return failed ? -1 : 0;
 }
 
 double goa_norm(double x, double complex m, int order)
 {
 	double norm = -1, along;
-	struct goa *g = goa_new(m, order, 0, NULL);
+	struct goa *g = goa_new(m, order);
 	if (!g || integrals(g, x, &norm, &along))
 		norm = -1;
 	goa_free(g);
@@ -336,8 +348,8 @@ static double glory(const struct goa *g, double x)
 	struct cap cap[GOA_ORDER_MAX + 1];
 	double sum = 0;
 	caps(g, x, cap);
-	for (size_t i = g->asked.first[0]; i < g->asked.first[1]; i++) {
-		const struct beam *b = &g->asked.beam[i];
+	for (size_t i = 0; i < g->front.first[1]; i++) {
+		const struct beam *b = &g->front.beam[i];
 		if (!b->ray.axial)
 			sum += 2 / x * spread(x, &b->ray, cap, g->caustic) * (cabs(b->f1) + cabs(b->f2)) * exp(-x * cimag(b->path));
 	}
@@ -396,26 +408,34 @@ static double absorption(double complex m, double x)
 	return q;
 }
 
+int goa_measure(struct goa *g, double x, struct efficiencies *q, double *norm, double *error)
+{
+	double complex s1, s2;
+	double along, missing;
+	*q = (struct efficiencies){ 0 };
+	*error = INFINITY;
+	if (integrals(g, x, norm, &along))
+		return -1;
+	amplitudes(g, &g->back, x, &s1, &s2);
+	q->ext = extinction(g, x, &missing);
+	q->abs = fmin(absorption(g->m, x), fmax(q->ext, 0));
+	q->sca = q->ext - q->abs;
+	q->g = *norm > 0 ? along / *norm : 0;
+	q->back = 4 * creal(s1 * conj(s1)) / (x * x);
+	/* What the rays leave out is first of all the edge, 1.9924 x^(-2/3) of extinction; and a ripple about a quarter of it. */
+	double least = fmin(q->ext, q->sca), edge = 1.25 * 1.9924 * pow(x, -2.0 / 3);
+	*error = least > 0 ? (edge + missing + glory(g, x)) / least : 1;
+	return 0;
+}
+
 struct efficiencies goa_efficiencies(double x, double complex m, int order, double *error)
 {
 	struct efficiencies q = { 0 };
-	double complex s1, s2;
-	double all, along, missing, ends[2] = { 0, 180 };
-	struct goa *g = goa_new(m, order, 1, &ends[1]), *estimate = goa_new(m, order > 4 ? order : 4, 1, &ends[0]);
+	double norm;
+	struct goa *g = goa_new(m, order);
 	*error = INFINITY;
-	if (g && estimate && !goa_at(g, x, &s1, &s2, NULL) && !integrals(g, x, &all, &along)) {
-		q.ext = extinction(g, x, &missing);
-		q.abs = fmin(absorption(m, x), fmax(q.ext, 0));
-		q.sca = q.ext - q.abs;
-		q.g = all > 0 ? along / all : 0;
-		q.back = 4 * creal(s1 * conj(s1)) / (x * x);
-		/* What the rays leave out is first of all the edge, 1.9924 x^(-2/3) of extinction; and a ripple about a quarter of it. */
-		double least = fmin(q.ext, q.sca), edge = 1.25 * 1.9924 * pow(x, -2.0 / 3);
-		*error = least > 0 ? (edge + missing + glory(estimate, x)) / least : 1;
-		if (!(q.ext > 0))
-			*error = fmax(*error, 1);
-	}
+	if (g)
+		goa_measure(g, x, &q, &norm, error);
 	goa_free(g);
-	goa_free(estimate);
 	return q;
 }

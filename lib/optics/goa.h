@@ -29,16 +29,22 @@ double goa_norm(double x, double complex m, int order);
  * or when memory ran out (everything is 0 then). */
 struct efficiencies goa_efficiencies(double x, double complex m, int order, double *error);
 
-/* The rays depend on m and the angles alone. Whoever asks for many sizes finds them once. */
+/* The rays depend on m and the angles alone. Whoever asks for many sizes finds them once. What is found is kept from call to
+ * call: a struct goa serves one thread at a time. */
 struct goa;
 
-/* goa_new - the rays of every order p <= order at angles theta[n] (degrees, [0, 180]; copied); NULL when memory ran out. */
-struct goa *goa_new(double complex m, int order, int n, const double *theta);
-
-/* goa_at - S1, S2 of size x at the angles of goa_new, and *norm = goa_norm unless norm is NULL.
- * Rays for the norm are kept from size to size: a struct goa serves one thread at a time. Returns 0, or -1 when memory ran out. */
-int goa_at(struct goa *g, double x, double complex *s1, double complex *s2, double *norm);
-
+/* goa_new - NULL when memory ran out. */
+struct goa *goa_new(double complex m, int order);
 void goa_free(struct goa *g);
+
+/* goa_aim - find the rays at angles theta[n] (degrees, [0, 180]; copied); nothing to do where they are the same as before.
+ * Returns 0, or -1 when memory ran out. */
+int goa_aim(struct goa *g, int n, const double *theta);
+
+/* goa_at - S1, S2 of size x at the angles of goa_aim. */
+void goa_at(const struct goa *g, double x, double complex *s1, double complex *s2);
+
+/* goa_measure - goa_efficiencies and goa_norm at once. Returns 0, or -1 when memory ran out (all is 0 then, *error infinite). */
+int goa_measure(struct goa *g, double x, struct efficiencies *q, double *norm, double *error);
 
 #endif
