@@ -55,7 +55,7 @@ cat >edge.txt <<EOT
 6${tab}1.1754942e-38${tab}2.225073858507201e-308
 EOT
 txttab edge.txt | tabtxt >back.txt
-sed 's/9007199254740993/9007199254740992/' edge.txt | diff - back.txt >diff
+sed 's/9007199254740993/9007199254740992/' edge.txt | diff - back.txt >difference
 ok $? 'extremes and subnormals print as the shortest decimals'
 txttab edge.txt | tabtxt | txttab | tabtxt | cmp - back.txt
 ok $? 'and text to table to text is the identity'

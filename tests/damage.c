@@ -9,6 +9,7 @@
 #include "tap.h"
 
 #include <fcntl.h>
+#include <math.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdint.h>
@@ -21,33 +22,47 @@
 #define WORKERS 2
 #define SECONDS 20
 
-enum kind { SIZES, IMAGE_ZIP, IMAGE_PIZ, IMAGE_TILED, KINDS };
+/* What is damaged: a file of this name in the test's folder, where make_inputs puts it. */
+#define GUARDED 1            /* by a checksum: no damage may go unseen */
+static const struct input {
+	const char *name;
+	int flags;
+} sizes = { "sizes", GUARDED }, coeffs = { "coeffs", GUARDED }, xsect = { "xsect", GUARDED }, phase = { "phase", GUARDED },
+  grains = { "grains", GUARDED }, medium = { "medium", GUARDED }, scene = { "scene", 0 },
+  zip = { "zip.exr", 0 }, piz = { "piz.exr", 0 }, tiled = { "tiled.exr", 0 };
 
-static const char *const kind_names[] = { "table", "zip image", "piz image", "tiled image" };
+#define LIGHT "--particle", "1.33", "--wavelength", "550nm"
+#define BAKE "--box", "1m,1m,1m", "-o", "@out"
 
-/* The input comes on standard input; INPUT stands for the name of an undamaged file of the same kind. */
-#define INPUT "INPUT"
+/* The damaged input comes on standard input; @NAME is the path of an undamaged one, @out of an output. */
 static const struct reader {
 	const char *tool;
-	enum kind kind;
+	const struct input *input;
 	int stride;              /* every how many bits are turned over, and bytes cut: prime, to meet all bits of a byte */
-	const char *args[10];
+	const char *args[14];
 } readers[] = {
-	{ "tabtxt", SIZES, 1, { NULL } },
-	{ "tabcmp", SIZES, 13, { "-", INPUT, NULL } },
-	{ "mie-coeffs", SIZES, 31, { "--particle", "1.33", "--wavelength", "550nm", NULL } },
-	{ "mie-phase", SIZES, 31, { "--particle", "1.33", "--wavelength", "550nm", "--angles", "3", NULL } },
-	{ "goa-phase", SIZES, 31, { "--particle", "1.33", "--wavelength", "550nm", "--angles", "3", NULL } },
-	{ "xsect", SIZES, 31, { "--particle", "1.33", "--wavelength", "550nm", NULL } },
-	{ "particles", SIZES, 31, { "--psd", "-", "--count", "3", "--box", "1m,1m,1m", NULL } },
-	{ "exr2png", IMAGE_ZIP, 23, { NULL } },
-	{ "exr2png", IMAGE_PIZ, 23, { NULL } },
-	{ "exr2png", IMAGE_TILED, 23, { NULL } },
-	{ "imgcmp", IMAGE_TILED, 41, { "-", INPUT, NULL } },
+	{ "tabtxt", &sizes, 1, { NULL } },
+	{ "tabcmp", &sizes, 13, { "-", "@sizes", NULL } },
+	{ "mie-coeffs", &sizes, 31, { LIGHT, NULL } },
+	{ "mie-phase", &sizes, 31, { LIGHT, "--angles", "3", NULL } },
+	{ "mie-phase", &coeffs, 31, { "--angles", "3", NULL } },
+	{ "goa-phase", &sizes, 31, { LIGHT, "--angles", "3", NULL } },
+	{ "xsect", &sizes, 31, { LIGHT, NULL } },
+	{ "xsect", &coeffs, 31, { NULL } },
+	{ "particles", &sizes, 31, { "--psd", "-", "--count", "3", "--box", "1m,1m,1m", NULL } },
+	{ "medium-bake", &grains, 31, { "--xsect", "@xsect", "--phase", "@phase", BAKE, NULL } },
+	{ "medium-bake", &xsect, 31, { "--xsect", "-", "--phase", "@phase", BAKE, "@grains", NULL } },
+	{ "medium-bake", &phase, 31, { "--xsect", "@xsect", "--phase", "-", BAKE, "@grains", NULL } },
+	{ "vrender", &medium, 499, { "--samples", "1", "-o", "@out", "@from-stdin", NULL } },
+	{ "vrender", &scene, 19, { "--samples", "1", "-o", "@out", "/dev/stdin", NULL } },
+	{ "exr2png", &zip, 31, { NULL } },
+	{ "exr2png", &piz, 31, { NULL } },
+	{ "exr2png", &tiled, 31, { NULL } },
+	{ "imgcmp", &tiled, 41, { "-", "@tiled.exr", NULL } },
 };
 #define READERS (sizeof readers / sizeof *readers)
 
-static char folder[] = "/tmp/damage-XXXXXX", *inputs[KINDS];
+static char folder[] = "/tmp/damage-XXXXXX";
 extern char **environ;
 
 struct bytes {
@@ -66,18 +81,55 @@ static struct bytes contents(const char *path)
 	return b;
 }
 
+static char *in_folder(const char *name)
+{
+	return xtext("%s/%s", folder, name);
+}
+
+/* A table of rows by cols values; columns are name and unit by turns. */
+static void table(const char *name, int ncols, const char *const *columns, int rows, const double *values)
+{
+	struct tab_col cols[TAB_COLS];
+	char *path = in_folder(name);
+	for (int i = 0; i < ncols; i++) {
+		cols[i].type = TAB_F64;
+		strcpy(cols[i].name, columns[2 * i]);
+		strcpy(cols[i].unit, columns[2 * i + 1]);
+	}
+	struct tab_out *t = tab_create(path, "", "by hand", ncols, cols);
+	for (int i = 0; i < rows; i++)
+		tab_put(t, values + i * ncols);
+	tab_finish(t);
+	free(path);
+}
+#define WORDS (const char *const[])
+#define ROWS (const double[])
+
+static void write_scene(const char *name, const char *file)
+{
+	char *path = in_folder(name);
+	FILE *f = fopen(path, "w");
+	if (!f)
+		die(path, "cannot create:");
+	fprintf(f, "camera = { position = [0.0, 0.0, 3.0]; target = [0.0, 0.0, 0.0]; fov = 34.0; resolution = [6, 4]; };\n"
+	    "medium = { file = \"%s\"; };\nlights = ( { type = \"sun\"; direction = [0.0, -1.0, 0.0]; irradiance = 3.0; } );\n", file);
+	fclose(f);
+	free(path);
+}
+
 static void make_inputs(void)
 {
 	if (!mkdtemp(folder))
 		die(folder, "cannot create:");
-	for (int i = 0; i < KINDS; i++)
-		inputs[i] = xtext("%s/%d", folder, i);
-	struct tab_col cols[] = { { "radius", TAB_F64, "um" }, { "weight", TAB_F64, "1" }, { "radius_lo", TAB_F64, "um" },
-	                          { "radius_hi", TAB_F64, "um" } };
-	struct tab_out *t = tab_create(inputs[SIZES], "", "psd mono", 4, cols);
-	tab_put(t, (double[]){ 1, 0.75, 0.5, 2 });
-	tab_put(t, (double[]){ 3, 0.25, 2, 4 });
-	tab_finish(t);
+	table("sizes", 4, WORDS{ "radius", "um", "weight", "1", "radius_lo", "um", "radius_hi", "um" }, 2,
+	      ROWS{ 1, 0.75, 0.5, 2, 3, 0.25, 2, 4 });
+	table("coeffs", 8, WORDS{ "x", "1", "host_re", "1", "host_im", "1", "n", "1", "a_re", "1", "a_im", "1", "b_re", "1", "b_im", "1" },
+	      2, ROWS{ 1, 1, 0, 1, 0.5, 0.5, 0.1, 0.3, 1, 1, 0, 2, 0.01, 0.1, 0, 0 });
+	table("xsect", 4, WORDS{ "wavelength", "um", "radius", "um", "c_ext", "um^2", "c_sca", "um^2" }, 2,
+	      ROWS{ 0.55, 1, 6, 5, 0.55, 3, 60, 50 });
+	table("phase", 3, WORDS{ "wavelength", "um", "theta", "deg", "p", "sr^-1" }, 3,
+	      ROWS{ 0.55, 0, M_1_PI / 4, 0.55, 90, M_1_PI / 4, 0.55, 180, M_1_PI / 4 });
+	table("grains", 4, WORDS{ "x", "m", "y", "m", "z", "m", "radius", "um" }, 2, ROWS{ 0, 0, 0, 1, 0.1, 0.2, 0.3, 3 });
 
 	struct exr image = { .width = 17, .height = 19, .history = xtext("vrender\n") };
 	static const char *const names[] = { "R", "G", "B", "count" };
@@ -87,12 +139,20 @@ static void make_inputs(void)
 		for (int p = 0; p < 17 * 19; p++)
 			data[p] = (float)(p * (i + 1) % 61) / 64;
 	}
-	exr_write(inputs[IMAGE_ZIP], &image);
+	char *path = in_folder("zip.exr");
+	exr_write(path, &image);
 	exr_free(&image);
-	char *command = xtext("cd %s && oiiotool 1 --ch R,G,B -d half --compression piz -o 2.exr && mv 2.exr 2 && "
-	    "oiiotool 1 --ch R,G,B -d float --compression pxr24 --tile 16 16 -o 3.exr && mv 3.exr 3", folder);
+	free(path);
+
+	write_scene("from-stdin", "/dev/stdin");
+	path = in_folder("medium");
+	write_scene("scene", path);
+	free(path);
+	char *command = xtext("cd %s && oiiotool zip.exr --ch R,G,B -d half --compression piz -o piz.exr && "
+	    "oiiotool zip.exr --ch R,G,B -d float --compression pxr24 --tile 16 16 -o tiled.exr && "
+	    "{ ! [ -x \"$BIN/medium-bake\" ] || \"$BIN/medium-bake\" --xsect xsect --phase phase --box 1m,1m,1m -o medium grains; }", folder);
 	if (system(command))
-		die("oiiotool", "cannot make the images to be damaged");
+		die(folder, "cannot make the files to be damaged");
 	free(command);
 }
 
@@ -107,16 +167,19 @@ static void write_all(int fd, const unsigned char *p, size_t n)
 	}
 }
 
-/* Feed the bytes to the tool. Returns its exit status, 100 + the signal that ended it; *lines and *printed of what it wrote. */
+/* Feed the bytes to the tool. Returns its exit status, 100 + the signal that ended it; *lines it wrote to stderr, and *printed:
+ * the bytes it wrote to stdout and its output file. */
 static int feed(const struct reader *r, const struct bytes *b, const struct bytes *more, int *lines, size_t *printed)
 {
-	char path[4096], *argv[12] = { (char *)(uintptr_t)r->tool };
+	char *path = xtext("%s/%s", getenv("BIN"), r->tool), *output = xtext("%s/out-%ld", folder, (long)getpid());
+	char *argv[16] = { (char *)(uintptr_t)r->tool };
 	int in = memfd_create("in", 0), out = memfd_create("out", 0), err = memfd_create("err", 0), status;
 	posix_spawn_file_actions_t actions;
 	pid_t child;
-	snprintf(path, sizeof path, "%s/bin/%s", getenv("MOTES_BUILD"), r->tool);
-	for (int i = 0; r->args[i]; i++)
-		argv[i + 1] = (char *)(uintptr_t)(!strcmp(r->args[i], INPUT) ? inputs[r->kind] : r->args[i]);
+	for (int i = 0; r->args[i]; i++) {
+		const char *arg = r->args[i];
+		argv[i + 1] = !strcmp(arg, "@out") ? xtext("%s", output) : *arg == '@' ? in_folder(arg + 1) : xtext("%s", arg);
+	}
 	write_all(in, b->p, b->n);
 	if (more)
 		write_all(in, more->p, more->n);
@@ -138,7 +201,11 @@ static int feed(const struct reader *r, const struct bytes *b, const struct byte
 	*lines = n > 0 && text[n - 1] != '\n';
 	for (ssize_t i = 0; i < n; i++)
 		*lines += text[i] == '\n';
-	*printed = (size_t)lseek(out, 0, SEEK_END);
+	*printed = (size_t)lseek(out, 0, SEEK_END) + !unlink(output);
+	for (int i = 1; argv[i]; i++)
+		free(argv[i]);
+	free(path);
+	free(output);
 	close(in);
 	close(out);
 	close(err);
@@ -167,15 +234,15 @@ static int share(const struct reader *r, const struct bytes *whole, size_t worke
 	memcpy(b.p, whole->p, whole->n);
 	for (b.n = 0; b.n < whole->n && wrong < 4; b.n += stride)
 		if (number++ % WORKERS == worker)
-			wrong += trial(r, &b, NULL, 0, "cut at", b.n);
+			wrong += trial(r, &b, NULL, r->input == &scene, "cut at", b.n);
 	b.n = whole->n;
 	for (size_t bit = 0; bit < 8 * whole->n && wrong < 4; bit += stride)
 		if (number++ % WORKERS == worker) {
 			b.p[bit / 8] ^= (unsigned char)(1 << bit % 8);
-			wrong += trial(r, &b, NULL, r->kind != SIZES, "turned over: bit", bit);
+			wrong += trial(r, &b, NULL, !(r->input->flags & GUARDED), "turned over: bit", bit);
 			b.p[bit / 8] ^= (unsigned char)(1 << bit % 8);
 		}
-	if (r->kind == SIZES && worker == 0)
+	if (r->input->flags & GUARDED && worker == 0)
 		wrong += trial(r, &b, whole, 0, "followed by another", 0) + trial(r, &b, &(struct bytes){ whole->p, 1 }, 0, "and a byte", 1);
 	free(b.p);
 	return wrong;
@@ -206,30 +273,33 @@ int main(void)
 {
 	if (!getenv("MOTES_BUILD"))
 		die("MOTES_BUILD", "is not set; run by tests/run");
-	setenv("ASAN_OPTIONS", "exitcode=99", 0);
+	char *build = realpath(getenv("MOTES_BUILD"), NULL), *bin = xtext("%s/bin", build);
+	setenv("BIN", bin, 1);
+	setenv("ASAN_OPTIONS", "exitcode=99:detect_leaks=0", 0);     /* for the tools: as in tests/lib.sh */
 	setenv("OMP_NUM_THREADS", "1", 0);
 	plan(2 * READERS);
 	make_inputs();
 	for (size_t i = 0; i < READERS; i++) {
 		const struct reader *r = &readers[i];
-		char *path = xtext("%s/bin/%s", getenv("MOTES_BUILD"), r->tool);
-		if (access(path, X_OK)) {
+		char *tool = xtext("%s/%s", bin, r->tool), *input = in_folder(r->input->name);
+		if (access(tool, X_OK) || access(input, R_OK)) {
 			ok(1, "%s # skip not built", r->tool);
 			ok(1, "%s # skip not built", r->tool);
 		} else {
-			struct bytes whole = contents(inputs[r->kind]);
+			struct bytes whole = contents(input);
 			int lines;
 			size_t printed;
-			ok(feed(r, &whole, NULL, &lines, &printed) == 0 && !lines, "%s takes a whole %s", r->tool, kind_names[r->kind]);
+			ok(feed(r, &whole, NULL, &lines, &printed) == 0 && !lines, "%s takes a whole input: %s", r->tool, r->input->name);
 			ok(survives(r, &whole), "%s bears with a damaged one", r->tool);
 			free(whole.p);
 		}
-		free(path);
+		free(tool);
+		free(input);
 	}
-	for (int i = 0; i < KINDS; i++) {
-		unlink(inputs[i]);
-		free(inputs[i]);
-	}
-	rmdir(folder);
-	return 0;
+	free(build);
+	free(bin);
+	char *sweep = xtext("rm -r %s", folder);
+	int left = system(sweep);
+	free(sweep);
+	return left != 0;
 }

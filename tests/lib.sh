@@ -11,7 +11,8 @@ data=$top/tests/data
 tmp=$(mktemp -d)
 trap 'rm -rf "$tmp"' EXIT
 export PATH LC_ALL=C OMP_NUM_THREADS=2
-export ASAN_OPTIONS="${ASAN_OPTIONS:-exitcode=99}"    # its own 1 would read as "compared and different"
+# For the sanitizer: its own exit status 1 would read as "compared and different", and a tool may leave its memory to its end.
+export ASAN_OPTIONS="${ASAN_OPTIONS:-exitcode=99:detect_leaks=0}"
 
 plan() { echo "1..$1"; }
 

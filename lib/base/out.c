@@ -59,6 +59,20 @@ static void swept(const char *name)
 			in_use[i] = NULL;
 }
 
+/* What a nameless file is called meanwhile. */
+static char *self_of(int fd)
+{
+	return xtext("/proc/self/fd/%d", fd);
+}
+
+static int nameable(int fd)
+{
+	char *self = self_of(fd);
+	int there = !access(self, F_OK);
+	free(self);
+	return there;
+}
+
 struct out out_open(const char *path, int binary)
 {
 	struct out out = { .path = path && strcmp(path, "-") ? path : "-" };
@@ -78,10 +92,14 @@ struct out out_open(const char *path, int binary)
 	char *folder = folder_of(out.path);
 	mode_t mask = umask(0);
 	umask(mask);
-	int fd = access("/proc/self/fd", X_OK) ? -1 : open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+	int fd = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+	if (fd >= 0 && !nameable(fd)) {
+		close(fd);
+		fd = -1;
+	}
 	out.aside = xtext("%s.tmp-%ld", out.path, (long)getpid());
 	out.nameless = fd >= 0;
-	if (fd < 0) {   /* a file system without nameless files */
+	if (fd < 0) {   /* a file system without nameless files, or no /proc */
 		fd = open(out.aside, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666 & ~mask);
 		if (fd >= 0)
 			keep_swept(out.aside);
@@ -99,7 +117,7 @@ void out_close(struct out *out)
 	if (bad)
 		die(!strcmp(out->path, "-") ? "standard output" : out->path, "cannot write:");
 	if (out->nameless) {
-		char *self = xtext("/proc/self/fd/%d", fileno(out->f));
+		char *self = self_of(fileno(out->f));
 		unlink(out->aside);     /* of a dead process that had our number */
 		keep_swept(out->aside);
 		if (linkat(AT_FDCWD, self, AT_FDCWD, out->aside, AT_SYMLINK_FOLLOW))

@@ -116,7 +116,7 @@ void job_make(struct job *j, const struct scenefile *file, const struct medium *
 	s->n_classes = medium->n_classes;
 	s->round = medium->round;
 	for (int a = 0; a < 3; a++) {
-		s->half[a] = (float)medium->half[a];
+		s->extent[a] = (float)medium->half[a];
 		s->cells[a] = medium->cells[a];
 		s->grid_low[a] = medium->low[a];
 		s->cell[a] = medium->cell[a];

@@ -9,7 +9,7 @@
 FN float least(float a, float b) { return a < b ? a : b; }
 FN float most(float a, float b) { return a > b ? a : b; }
 
-/* -log x for 2^-126 <= x <= 2^126; absolute error below 1e-7 max(1, |log x|). */
+/* -log x for 2^-126 <= x <= 2^126; absolute error below 1.5e-7 max(1, |log x|). */
 FN float neglog(float x)
 {
 	int e = (int)(float_bits(x) - 0x3f3504f3u) >> 23;    /* x = 2^e (1 + m), 1 + m in [root(1/2), sqrt 2) */

@@ -39,14 +39,14 @@ FN void clip_box(struct ray r, const float *low, const float *high, float *t0, f
 FN void clip_medium(const struct scene *s, struct ray r, float *t0, float *t1)
 {
 	if (!s->round) {
-		float low[3] = { -s->half[0], -s->half[1], -s->half[2] };
-		clip_box(r, low, s->half, t0, t1);
+		float low[3] = { -s->extent[0], -s->extent[1], -s->extent[2] };
+		clip_box(r, low, s->extent, t0, t1);
 		return;
 	}
 	/* The nearest point of the ray to the centre first: the half chord then has no cancellation. */
 	float middle = -dot3(r.from, r.along);
 	struct vec nearest = add(r.from, scale(r.along, middle));
-	float h2 = s->half[0] * s->half[0] - dot3(nearest, nearest);
+	float h2 = s->extent[0] * s->extent[0] - dot3(nearest, nearest);
 	float h = root(most(h2, 0.f));
 	*t0 = most(0.f, middle - h);
 	*t1 = h2 > 0.f ? middle + h : 0.f;

@@ -24,8 +24,8 @@ struct scene {
 	int transport;
 	int n_waves, n_groups;
 	int n_classes;             /* class n_classes is the mixture of the whole medium */
-	int round;                 /* the medium fills a sphere of radius half[0], else a box */
-	float half[3];
+	int round;                 /* the medium fills a sphere of radius extent[0], else a box */
+	float extent[3];
 	int cells[3];              /* grid over the discs of the particles */
 	float grid_low[3], grid_high[3], cell[3];
 	int has_ground;

@@ -1,0 +1,45 @@
+/* The kernels' elementary functions keep their stated errors; the film adds exactly. */
+#include "render/kern/film.h"
+#include "tap.h"
+
+#include <math.h>
+
+int main(void)
+{
+	double worst_log = 0, worst_exp = 0, worst_sin = 0, worst_atan = 0, worst_angle = 0;
+	plan(9);
+	for (int i = 1; i < 2000000; i++) {
+		float x = (float)i * 0x1p-21f, y = (float)i * 86.9f / 2000000, z = (float)i * 6.2831853f / 2000000, s, c;
+		worst_log = fmax(worst_log, fabs(neglog(x) + log(x)) / fmax(1, fabs(log(x))));
+		worst_exp = fmax(worst_exp, fabs(expneg(y) / exp(-(double)y) - 1) / (1 + y));
+		sincos_of(z, &s, &c);
+		worst_sin = fmax(worst_sin, fmax(fabs(s - sin(z)), fabs(c - cos(z))));
+		worst_atan = fmax(worst_atan, fabs(atan_unit(x < 1 ? x : 1) / atan(x < 1 ? x : 1) - 1));
+	}
+	ok(worst_log < 1.5e-7, "neglog: %.2g of max(1, |log x|)", worst_log);
+	ok(worst_exp < 1e-7, "expneg: %.2g (1 + x), relative", worst_exp);
+	ok(worst_sin < 2e-7, "sin, cos: %.2g", worst_sin);
+	ok(worst_atan < 5e-7, "atan: %.2g, relative", worst_atan);
+	float small_s, small_c;
+	sincos_of(1e-5f, &small_s, &small_c);
+	ok(fabs(small_s / sin((double)1e-5f) - 1) < 1e-7, "sin is relative near 0");
+
+	/* angles between unit vectors, near both ends as in the middle, in units of the rounding of the vectors */
+	for (int i = -60; i <= 60; i++)
+		for (int end = 0; end < 2; end++) {
+			double t = pow(10, i / 10.0);
+			if (t > 3.1)
+				continue;
+			t = end ? M_PI - t : t;
+			struct vec a = { 1, 0, 0 }, b = { (float)cos(t), (float)sin(t), 0 };
+			worst_angle = fmax(worst_angle, fabs(angle_between(a, b) - t));
+		}
+	ok(worst_angle < 1e-6, "angle_between: %.2g rad", worst_angle);
+
+	ok(film_value(1.f) == 1 << 30 && film_value(-0.25f) == -(1 << 28) && film_value(0x1p-31f) == 1 && film_value(0.f) == 0,
+	   "the film's unit is 2^-30, rounded to the nearest");
+	ok(film_value(NAN) > (int64)1 << 60 && film_value(INFINITY) > (int64)1 << 60 && film_value(-INFINITY) < -((int64)1 << 60),
+	   "what is not finite is far out of range");
+	ok(film_value(3.14159274f) == (int64)llrint(3.14159274f * FILM_UNIT), "a float's own bits survive");
+	return 0;
+}
