@@ -81,4 +81,17 @@ for source in "$top"/tools/*.c; do
 	is '' "$absent" "and its synopsis has them all"
 	count 2
 done
+# The README's pipelines, one after the other; its make commands are run by whoever reads it.
+for t in psd xsect mie-phase particles medium-bake vrender; do command -v $t; done >"$tmp/there"
+if [ "$(wc -l <"$tmp/there")" -eq 6 ]; then
+	awk '/^```sh/ { block = ""; inside = 1; next }
+	     /^```/ { if (inside && block !~ /^make/) printf "%s", block; inside = 0 }
+	     inside { block = block $0 "\n" }' "$top/README.md" >"$tmp/readme.sh"
+	mkdir "$tmp/readme"
+	(cd "$tmp/readme" && exec sh -e ../readme.sh) >"$tmp/out" 2>"$tmp/err" </dev/null
+	is "0 fog.png" "$? $(cd "$tmp/readme" && echo ./*.png | cut -c3-)$(cat "$tmp/err")" 'the pipelines of the README run'
+else
+	echo "ok - the pipelines of the README # skip not all tools are built"
+fi
+count 1
 plan $n
