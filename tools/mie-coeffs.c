@@ -52,7 +52,7 @@ static void run(struct coeffs *in, const char *output, const char *command)
 
 int main(int argc, char **argv)
 {
-	struct sizes_options sizes = SIZES_INIT;
+	static struct sizes_options sizes = SIZES_INIT;    /* static: the lists in it live as long as the process */
 	const char *output = NULL;
 	const struct opt opts[] = {
 		SIZES_OPTIONS(sizes),

@@ -18,8 +18,8 @@ static int model(const void *context, struct waves *w, int n, const double *thet
 
 int main(int argc, char **argv)
 {
-	struct sizes_options sizes = SIZES_INIT;
-	struct phase_options phase = { 0 };
+	static struct sizes_options sizes = SIZES_INIT;    /* static: the lists in it live as long as the process */
+	static struct phase_options phase;
 	const char *output = NULL;
 	const struct opt opts[] = {
 		SIZES_OPTIONS(sizes),

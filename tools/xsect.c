@@ -116,7 +116,7 @@ static struct worst run(struct coeffs *in, int method, const char *output, const
 
 int main(int argc, char **argv)
 {
-	struct sizes_options sizes = SIZES_INIT;
+	static struct sizes_options sizes = SIZES_INIT;    /* static: the lists in it live as long as the process */
 	int method = MIE, verbose = 0;
 	const char *output = NULL;
 	const struct opt opts[] = {

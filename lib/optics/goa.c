@@ -1,14 +1,11 @@
 #include "optics/goa.h"
 
+#include "base/cmplx.h"
 #include "optics/rays.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#ifndef CMPLX         /* clang with glibc */
-#define CMPLX(re, im) __builtin_complex((double)(re), (double)(im))
-#endif
 
 #define NODES 8        /* nodes of a panel's quadrature */
 #define CHUNK 4096    /* angles of goa_amplitudes whose rays are held at once */

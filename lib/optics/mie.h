@@ -34,7 +34,8 @@ int mie_lossless(int n, const double complex *a, const double complex *b);
 struct efficiencies mie_efficiencies(double x, int lossless, int n, const double complex *a, const double complex *b);
 
 /* mie_error - estimate of what rounding does to the efficiencies: the larger of the relative errors of ext and sca and the
- * absolute error of g. It grows with x, and where m is near 1. */
+ * absolute error of g. It grows with x, and where m is near 1. On a narrow resonance the rounding of x itself can do far more;
+ * that is not in it. */
 double mie_error(double x, int n, const double complex *a, const double complex *b);
 
 /* mie_amplitudes - S1, S2 at angles theta[ntheta] (degrees, [0, 180]) by direct summation; 0, or -1 when memory ran out.

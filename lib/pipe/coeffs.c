@@ -35,12 +35,17 @@ int waves_solve(struct waves *w)
 	return w->a && w->b ? mie_coefficients(w->size.x, w->size.m, w->n, w->a, w->b) : -1;
 }
 
-void waves_free(struct waves *w)
+void waves_drop(struct waves *w)
 {
 	free(w->a);
 	free(w->b);
-	free((double *)w->size.carried);
 	w->a = w->b = NULL;
+}
+
+void waves_free(struct waves *w)
+{
+	waves_drop(w);
+	free((double *)w->size.carried);
 	w->size.carried = NULL;
 }
 

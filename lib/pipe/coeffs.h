@@ -19,6 +19,9 @@ struct waves {
 /* waves_solve - have the coefficients; nothing to do where they were read. 0, or -1 when memory ran out. Threads may solve
  * different waves at once. */
 int waves_solve(struct waves *w);
+
+/* waves_drop - give back the coefficients; waves_free - these and the rest. */
+void waves_drop(struct waves *w);
 void waves_free(struct waves *w);
 
 struct coeffs;

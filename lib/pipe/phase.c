@@ -92,7 +92,7 @@ static void put_rows(struct job *j, const struct waves *w, int n, const double *
 static void add_mean(struct job *j, const struct waves *w, int n, const struct phase_result *r)
 {
 	size_t at = 0;
-	while (at < j->nmean && j->mean[at].wavelength != w->size.wavelength)
+	while (at < j->nmean && fabs(j->mean[at].wavelength / w->size.wavelength - 1) > 1e-9)
 		at++;
 	if (at == j->nmean) {
 		j->mean = xgrow(j->mean, ++j->nmean, sizeof *j->mean);
@@ -132,6 +132,7 @@ static void chunk(struct job *j, struct waves *w, const double *x_grid, size_t n
 		r[i].s1 = s + at[i];
 		r[i].s2 = s + angles + at[i];
 		failed |= j->model(j->context, &w[i], na, t, &r[i]) != 0;
+		waves_drop(&w[i]);    /* the coefficients of a whole chunk can be too many */
 	}
 	if (failed)
 		die(NULL, "out of memory");

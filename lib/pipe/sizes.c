@@ -8,6 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Relative refractive indices in reach; with |m| x no larger than this, orders fit an int. */
+#define M_MIN 1e-3
+#define M_MAX 1e3
+#define Y_MAX 1e9
+
 struct sizes {
 	struct tab *table;                  /* NULL: the options give the sizes */
 	int radius_col;
@@ -66,6 +71,9 @@ static void indices(struct sizes *s, const struct sizes_options *o)
 		s->m[i] = CMPLX(creal(p) / creal(h), cimag(p) / creal(h));
 		if (s->m[i] == 1)
 			die("--particle", "'%s' has the host's own refractive index: it does not scatter", o->particle);
+		if (!(cabs(s->m[i]) >= M_MIN && cabs(s->m[i]) <= M_MAX))
+			die("--particle", "'%s' is %g times the host's refractive index, out of range: from %g to %g",
+			    o->particle, cabs(s->m[i]), M_MIN, M_MAX);
 	}
 }
 
@@ -167,8 +175,10 @@ int sizes_carried(struct sizes *s, int nown, const struct tab_col *own, struct t
 const char *sizes_history(const struct sizes *s) { return s->table ? tab_history(s->table) : ""; }
 int sizes_by_x(const struct sizes *s) { return s->x.n > 0; }
 
-static void check_x(const struct sizes *s, double x, double radius, double wavelength)
+static void check_x(const struct sizes *s, double x, double complex m, double radius, double wavelength)
 {
+	if (cabs(m) * x > Y_MAX)
+		die("--particle", "size parameter %g times relative index %g exceeds %g", x, cabs(m), Y_MAX);
 	if (x >= SIZES_X_MIN && x <= SIZES_X_MAX)
 		return;
 	if (s->table)
@@ -199,8 +209,11 @@ static int next_size(struct sizes *s)
 		for (int i = 0; i < s->ncarried; i++)
 			s->carried[i] = s->row[s->carried_col[i]];
 	}
-	for (size_t i = 0; !sizes_by_x(s) && i < s->nwave; i++)
-		check_x(s, sizes_x(s->size_radius, s->wavelength[i], s->host[i]), s->size_radius, s->wavelength[i]);
+	for (size_t i = 0; i < s->nwave; i++)
+		if (sizes_by_x(s))
+			check_x(s, s->size_radius, s->m[i], 0, 0);
+		else
+			check_x(s, sizes_x(s->size_radius, s->wavelength[i], s->host[i]), s->m[i], s->size_radius, s->wavelength[i]);
 	return 1;
 }
 

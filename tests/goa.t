@@ -1,0 +1,96 @@
+#!/bin/sh
+# goa-phase: rows, columns, normalisation, averages, and what it refuses.
+# shellcheck source=tests/lib.sh
+. "$(dirname "$0")/lib.sh"
+plan 32
+cd "$tmp" || exit 2
+
+drop='--particle 1.33 --wavelength 550nm'
+# shellcheck disable=SC2086
+phase() { goa-phase $drop "$@"; }
+
+# integral: of p over the sphere by the trapezoidal rule, from theta and p.
+integral() {
+	tabtxt --columns theta,p | awk 'NR > 1 { t = $1 * atan2(0, -1) / 180; f = $2 * sin(t) * 2 * atan2(0, -1)
+		if (NR > 2) s += (f + g) / 2 * (t - u); g = f; u = t } END { printf "%.3f\n", s }'
+}
+
+phase --radius 20um --angles 7 | tabtxt >out
+is '# wavelength:f64:um	radius:f64:um	theta:f64:deg	s1_re:f64:1	s1_im:f64:1	s2_re:f64:1	s2_im:f64:1	p:f64:sr^-1' \
+	"$(head -1 out)" 'columns'
+is 8 "$(wc -l <out)" 'a row for each angle'
+is '0 30 60 90 120 150 180' "$(awk 'NR > 1 { print $3 }' out | tr '\n' ' ' | sed 's/ $//')" 'equally spaced'
+phase --radius 10um,20um --theta 0:180:45 | tabtxt --columns radius,theta >out
+is 11 "$(wc -l <out)" 'every angle of every size'
+is '20	180' "$(tail -1 out)" 'size by size'
+goa-phase --particle 1.33 --size-parameter 1000.5 --theta 90 | tabtxt >out
+is '# x:f64:1' "$(head -1 out | cut -f1)" 'by size parameter'
+is 1000.5 "$(tail -1 out | cut -f1)" 'which is taken exactly'
+goa-phase --particle 1.5 --host 1.25 --wavelength 550nm --radius 20um --theta 33 | tabtxt --columns s1_re >a
+goa-phase --particle 1.2 --wavelength 440nm --radius 20um --theta 33 | tabtxt --columns s1_re >b
+is "$(awk 'NR > 1 { printf "%.6g", $1 }' b)" "$(awk 'NR > 1 { printf "%.6g", $1 }' a)" 'only the relative index and x matter'
+
+# p and its norm.
+for m in 1.33 1.5+0.1i 0.75; do
+	is 1.00 "$(goa-phase --particle "$m" --size-parameter 300 --angles 20001 | integral | cut -c1-4 | sed s/0.99/1.00/)" "m = $m: p integrates to 1"
+done
+is 1.00 "$(goa-phase --particle 1.33 --size-parameter 300 | integral | cut -c1-4 | sed s/0.99/1.00/)" 'and on the default grid'
+phase --radius 20um --theta 17 | tabtxt --columns p >a
+phase --radius 20um --theta 0:180:1 | tabtxt --columns theta,p | awk '$1 == 17 { print $2 }' >b
+is "$(tail -1 a)" "$(cat b)" 'p does not depend on the other angles'
+phase --radius 20um --theta 40 | tabtxt --columns s1_re,s1_im,s2_re,s2_im |
+	awk 'NR > 1 { printf "%.3f %.3f %.3f %.3f\n", $1, $2, $3, $4 }' >a
+phase --radius 20um --theta 40 --order 3 --model goa | tabtxt --columns s1_re,s1_im,s2_re,s2_im |
+	awk 'NR > 1 { printf "%.3f %.3f %.3f %.3f\n", $1, $2, $3, $4 }' >b
+is "$(cat a)" "$(cat b)" 'order 3 and the published model are the default'
+# Diffraction in the forward direction is x^2/2 real, the reflected ray x/2 everywhere.
+goa-phase --particle 1.33 --size-parameter 1000 --theta 0 --order 0 | tabtxt --columns s1_re |
+	awk 'NR > 1 { exit !($1 > 499000 && $1 < 501000) }'
+ok $? 'x^2/2 forward'
+goa-phase --particle 1.33 --size-parameter 1000 --theta 180 --order 0 | tabtxt --columns s1_re,s1_im |
+	awk 'NR > 1 { r = sqrt($1^2 + $2^2) / 500; exit !(r > 0.33 / 2.33 - 1e-9 && r < 0.33 / 2.33 + 1e-9) }'
+ok $? 'x/2 times Fresnel backward'
+
+# Near Mie for a large drop: a few percent of the light goes elsewhere.
+goa-phase --particle 1.33 --size-parameter 1000.49 --angles 7201 | tabtxt --columns theta,p >a
+mie-phase --particle 1.33 --size-parameter 1000.49 --angles 7201 | tabtxt --columns p >b
+paste a b | awk 'NR > 1 { d = $2 - $3; s += (d < 0 ? -d : d) * sin($1 * atan2(0, -1) / 180) }
+	END { s *= atan2(0, -1)^2 / 7200; print "# L1", s; exit !(s > 0.028 && s < 0.038) }'
+ok $? 'L1 against Mie'
+
+# Tables in, columns carried, averages.
+printf '# radius:f64:um\tweight:f64:1\n20\t0.25\n40\t0.75\n' | txttab -o sizes.tab
+phase --theta 0,180 sizes.tab | tabtxt --columns radius,theta,weight >out
+is '20	0	0.25
+20	180	0.25
+40	0	0.75
+40	180	0.75' "$(tail -n +2 out)" 'weights are carried through'
+phase --theta 0,180 <sizes.tab | tabtxt --columns radius,theta,weight >out2
+is "$(cat out)" "$(cat out2)" 'from standard input too'
+phase --average --angles 20001 sizes.tab | tabtxt >out
+is '# wavelength:f64:um	theta:f64:deg	p:f64:sr^-1' "$(head -1 out)" 'an average has no radius'
+is 20002 "$(wc -l <out)" 'and one row an angle'
+is 1.00 "$(txttab out | integral | cut -c1-4 | sed s/0.99/1.00/)" 'and integrates to 1'
+
+# The same bytes, whatever the threads.
+goa-phase --particle water --wavelength 400nm,500nm,600nm --radius 5um:30um:4 --threads 1 -o one.tab
+goa-phase --particle water --wavelength 400nm,500nm,600nm --radius 5um:30um:4 --threads 3 -o three.tab
+cmp -s one.tab three.tab
+ok $? 'one and three threads'
+
+# Where GOA does not hold it says so once, and goes on.
+goa-phase --particle 1.49 --size-parameter 1.047,1.2,1.3 --theta 0,90 >out.tab 2>err
+is "0 1" "$? $(wc -l <err)" 'one warning'
+grep -q 'goa-phase: geometrical optics does not hold at x = ' err
+ok $? 'that names x'
+is 7 "$(tabtxt out.tab | wc -l)" 'and all rows'
+phase --radius 20um --theta 1 -o out.tab 2>err
+is 0 "$(wc -c <err)" 'silent on success'
+goa-phase --particle 1.33 --size-parameter 1e-8,1e7 --order 12 --theta 0,90,137.9,180 2>err | tabtxt >out
+is "9 0" "$(wc -l <out) $(grep -cE 'nan|inf' out)" 'finite from end to end'
+
+refused 'no particle' 'particle' goa-phase --wavelength 550nm --radius 1um
+refused 'a negative order' 'order' goa-phase --particle 1.33 --size-parameter 100 --order -1
+refused 'a model that is none' 'model' goa-phase --particle 1.33 --size-parameter 100 --model mie
+mie-coeffs --particle 1.33 --wavelength 550nm --radius 1um -o coeffs.tab
+refused 'coefficients' 'coefficients' goa-phase --particle 1.33 --wavelength 550nm coeffs.tab
