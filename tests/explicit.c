@@ -109,7 +109,8 @@ static void compare(size_t n, double area, const char *what)
 		float t[WAVES], end = k % 5 ? FAR : 1.2f;
 		int id[WAVES];
 		struct ray r = some_ray(k, n);
-		first_particles(&q->scene, &q->tables, r, end, w, t, id);
+		struct vec entry;
+		first_particles(&q->scene, &q->tables, r, end, w, t, id, &entry);
 		for (int j = 0; j < WAVES; j++) {
 			wrong += id[j] != brute(q, r, end, j);
 			met += id[j] != NONE;

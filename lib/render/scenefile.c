@@ -179,8 +179,11 @@ void scenefile_read(const char *path, struct scenefile *s)
 		die(path, "cannot open:");
 	*s = (struct scenefile){ .up = { 0, 1, 0 } };
 	config_init(&config);
-	if (!config_read(&config, f))
-		die(path, "line %d: %s", config_error_line(&config), config_error_text(&config) ? config_error_text(&config) : "cannot be read");
+	if (!config_read(&config, f)) {
+		const char *what = config_error_text(&config) ? config_error_text(&config) : "cannot be read";
+		die(path, "line %d: %s%s", config_error_line(&config), what,
+		    strstr(what, "element type") ? " (write 0.0, not 0, beside numbers with a point)" : "");
+	}
 	fclose(f);
 	config_setting_t *root = config_root_setting(&config), *g, *lights;
 	only(path, root, "camera medium lights ground");

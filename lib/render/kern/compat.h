@@ -7,7 +7,9 @@
 
 #ifdef __OPENCL_VERSION__
 #pragma OPENCL FP_CONTRACT OFF
+#ifndef FN
 #define FN static inline __attribute__((always_inline))
+#endif
 #define GLOBAL __global
 typedef long int64;
 typedef uint uint32;

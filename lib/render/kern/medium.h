@@ -54,29 +54,31 @@ FN void clip_medium(const struct scene *s, struct ray r, float *t0, float *t1)
 
 /* ------------------------------------------------------------------ explicit: every particle is a disc of area c_ext */
 
-/* The first particle before t_end that each wavelength meets: its depth in t[j], its index or NONE in id[j].
+/* The first particle before t_end that each wavelength meets: its index or NONE in id[j], its depth in t[j], counted from the
+ * point *entry where the ray comes into the grid (from afar, floats would be too coarse for the discs).
  * A particle is met where the point of the ray closest to its centre lies ahead and nearer than the disc's radius. */
 FN void first_particles(const struct scene *s, const struct tables *tab, struct ray r, float t_end, struct waves w,
-                        float *t, int *id)
+                        float *t, int *id, struct vec *entry)
 {
 	float t0, t1;
+	clip_box(r, s->grid_low, s->grid_high, &t0, &t1);
+	t1 = least(t1, t_end) - t0;
+	struct vec p = add(r.from, scale(r.along, t0));
 	for (int j = 0; j < w.n; j++) {
-		t[j] = t_end;
+		t[j] = t1;
 		id[j] = NONE;
 	}
-	clip_box(r, s->grid_low, s->grid_high, &t0, &t1);
-	t1 = least(t1, t_end);
-	if (!(t0 < t1))
+	*entry = p;
+	if (!(t1 > 0.f))
 		return;
-	struct vec p = add(r.from, scale(r.along, t0));
-	const float from[3] = { r.from.x, r.from.y, r.from.z }, at[3] = { p.x, p.y, p.z };
+	const float at[3] = { p.x, p.y, p.z };
 	const float inv[3] = { inverse(r.along.x), inverse(r.along.y), inverse(r.along.z) };
 	int i[3], wall[3];
 	float leave[3];            /* where the ray leaves the cell along each axis */
 	for (int a = 0; a < 3; a++) {
 		i[a] = (int)most(0.f, least((at[a] - s->grid_low[a]) / s->cell[a], (float)(s->cells[a] - 1)));
 		wall[a] = i[a] + (inv[a] > 0.f);
-		leave[a] = (s->grid_low[a] + (float)wall[a] * s->cell[a] - from[a]) * inv[a];
+		leave[a] = (s->grid_low[a] + (float)wall[a] * s->cell[a] - at[a]) * inv[a];
 	}
 	for (;;) {
 		int axis = leave[0] < leave[1] ? (leave[0] < leave[2] ? 0 : 2) : (leave[1] < leave[2] ? 1 : 2);
@@ -84,12 +86,12 @@ FN void first_particles(const struct scene *s, const struct tables *tab, struct 
 		for (uint32 k = tab->first[cell]; k < tab->first[cell + 1]; k++) {
 			int n = (int)tab->reference[k];
 			GLOBAL const float *q = tab->particle + 4 * (long)n;
-			struct vec v = vec3(q[0] - r.from.x, q[1] - r.from.y, q[2] - r.from.z);
+			struct vec v = vec3(q[0] - p.x, q[1] - p.y, q[2] - p.z);
 			float depth = dot3(v, r.along);
 			struct vec off = sub(v, scale(r.along, depth));    /* no cancellation of squares */
 			float d2 = dot3(off, off);
 			int class = (int)float_bits(q[3]);
-			if (!(depth > 0.f) || n == r.skip || !(d2 < tab->disc_most[class]))
+			if (!(depth + t0 > 0.f) || n == r.skip || !(d2 < tab->disc_most[class]))
 				continue;
 			for (int j = 0; j < w.n; j++)
 				if (d2 < tab->disc[class * s->n_waves + wave_of(w, j)] && depth < t[j]) {
@@ -108,7 +110,7 @@ FN void first_particles(const struct scene *s, const struct tables *tab, struct 
 		if (i[axis] < 0 || i[axis] >= s->cells[axis])
 			return;
 		wall[axis] += step;
-		leave[axis] = (s->grid_low[axis] + (float)wall[axis] * s->cell[axis] - from[axis]) * inv[axis];
+		leave[axis] = (s->grid_low[axis] + (float)wall[axis] * s->cell[axis] - at[axis]) * inv[axis];
 	}
 }
 
@@ -119,8 +121,9 @@ FN void transmittance(const struct scene *s, const struct tables *tab, struct ra
 {
 	float t0, t1, depth[MAX_WAVES];
 	int id[MAX_WAVES];
+	struct vec entry;
 	if (s->transport == TRANSPORT_EXPLICIT) {
-		first_particles(s, tab, r, t_end, w, depth, id);
+		first_particles(s, tab, r, t_end, w, depth, id, &entry);
 		for (int j = 0; j < w.n; j++)
 			out[j] = id[j] == NONE ? 1.f : 0.f;
 		return;
@@ -134,7 +137,7 @@ FN void transmittance(const struct scene *s, const struct tables *tab, struct ra
 /* Where a flight ends. */
 struct collision {
 	int happened;              /* else it reached t_end */
-	float t;
+	struct vec point;          /* of the collision */
 	int class, id;             /* what scatters there; id NONE in a continuous medium */
 };
 
@@ -143,14 +146,15 @@ struct collision {
 FN struct collision free_flight(const struct scene *s, const struct tables *tab, struct ray r, float t_end, struct waves w,
                                 int hero, float u, float *event)
 {
-	struct collision c = { 0, t_end, s->n_classes, NONE };
+	struct collision c = { 0, r.from, s->n_classes, NONE };
 	float t0, t1, depth[MAX_WAVES];
 	int id[MAX_WAVES];
+	struct vec entry;
 	if (s->transport == TRANSPORT_EXPLICIT) {
-		first_particles(s, tab, r, t_end, w, depth, id);
+		first_particles(s, tab, r, t_end, w, depth, id, &entry);
 		c.id = id[hero];
 		c.happened = c.id != NONE;
-		c.t = depth[hero];
+		c.point = add(entry, scale(r.along, depth[hero]));
 		if (c.happened)
 			c.class = (int)float_bits(tab->particle[4 * (long)c.id + 3]);
 		for (int j = 0; j < w.n; j++)
@@ -164,7 +168,7 @@ FN struct collision free_flight(const struct scene *s, const struct tables *tab,
 	c.happened = free < sigma * length;
 	if (c.happened) {
 		length = free / sigma;
-		c.t = t0 + length;
+		c.point = add(add(r.from, scale(r.along, t0)), scale(r.along, length));
 	}
 	for (int j = 0; j < w.n; j++) {
 		float own = tab->extinction[wave_of(w, j)];

@@ -154,11 +154,13 @@ FN int path_bounce(const struct scene *s, const struct tables *tab, struct path 
 		see_sky(s, tab, p, p->chance * mean);
 		return 0;
 	}
-	struct vec point = add(p->ray.from, scale(p->ray.along, c.t));
+	struct vec point = c.point;
 	int class = c.happened ? c.class : NONE;
 	float normal = p->ray.along.y < 0.f ? 1.f : -1.f;
-	if (class == NONE)
+	if (class == NONE) {
+		point = add(p->ray.from, scale(p->ray.along, t_ground));
 		point.y = s->ground_height;
+	}
 	for (int j = 0; j < p->waves.n; j++)
 		p->weight[j] *= class == NONE ? s->ground_albedo : tab->albedo[class * s->n_waves + wave_of(p->waves, j)];
 	see_light(s, tab, p, point, class, c.id, normal);

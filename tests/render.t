@@ -1,0 +1,179 @@
+#!/bin/sh
+# The renderer: bookkeeping (furnace), known radiances, and the same bytes from every way to run it.
+# shellcheck source=tests/lib.sh
+. "$(dirname "$0")/lib.sh"
+plan 35
+cd "$tmp" || exit 2
+export POCL_CACHE_DIR="$tmp/pocl"
+mkdir "$POCL_CACHE_DIR"
+
+# ---- media
+
+# hg G WAVELENGTH..: Henyey-Greenstein phase functions, one a wavelength, g falling by 0.05 from one to the next.
+hg() {
+	g=$1
+	shift
+	awk -v g="$g" -v list="$*" 'BEGIN {
+		print "# wavelength:f64:um\ttheta:f64:deg\tp:f64:sr^-1"
+		n = split(list, w, " "); pi = atan2(0, -1)
+		for (l = 1; l <= n; l++) {
+			a = g - 0.05 * (l - 1)
+			for (i = 0; i <= 1800; i++)
+				printf "%s\t%.10g\t%.10g\n", w[l], i / 10, (1 - a*a) / (4*pi * (1 + a*a - 2*a*cos(i * pi / 1800))^1.5)
+		}
+	}' | txttab
+}
+# xsect C_EXT ALBEDO WAVELENGTH..: of particles of radius 1000 um.
+xsections() {
+	c=$1 a=$2
+	shift 2
+	{ printf '# wavelength:f64:um\tradius:f64:um\tc_ext:f64:um^2\tc_sca:f64:um^2\n'
+	for w; do awk -v w="$w" -v c="$c" -v a="$a" 'BEGIN { printf "%s\t1000\t%.10g\t%.10g\n", w, c, c * a; exit }'; c=$((c + 100000)); done
+	} | txttab
+}
+printf '# radius:f64:um\tweight:f64:1\n1000\t1\n' | txttab -o one.psd
+# cube NAME EXTINCTION_IN_1E-6_UM2 ALBEDO PHASE: a cube of side 2 m, 1e6 particles a m3, one wavelength
+cube() {
+	xsections "$2" "$3" 0.55 >one.xsect
+	medium-bake --xsect one.xsect --phase "$4" --psd one.psd --concentration 1e6/m3 --box 2m,2m,2m -o "$1"
+}
+# grains NAME N XSECT PHASE: N particles in a cube of side 2 m
+grains() {
+	particles --psd one.psd --count "$2" --box 2m,2m,2m | medium-bake --xsect "$3" --phase "$4" --box 2m,2m,2m -o "$1"
+}
+scene() { # scene NAME MEDIUM PIXELS MORE
+	cat >"$1" <<-EOT
+	camera = { position = [3.2, 2.4, 4.2]; target = [0.0, 0.0, 0.0]; fov = 34.0; resolution = [$3, $3]; };
+	medium = { file = "$2"; };
+	$4
+	EOT
+}
+stats() { oiiotool --stats "$1" | awk -v what="$2" '$1 == "Stats" && $2 == what":" { print $3, $4, $5 }'; }
+mean() { stats "$1" Avg | awk '{ print $1 }'; }
+near() { awk -v a="$1" -v b="$2" -v e="$3" 'BEGIN { d = a - b; exit !(d <= e && d >= -e) }'; }
+# agree NAME WANT ITS_ERROR A B: the mean of two renderings of the same length from different seeds is WANT within 4 standard
+# errors (false alarm 6e-5), which are at most 2e-4; their own difference gives the standard error.
+agree() {
+	imgcmp "$4" "$5" >diff.txt
+	rms=$(awk '$1 == "G" { print $2 }' diff.txt)
+	pixels=$(oiiotool --info "$4" | sed 's/^[^:]*: *\([0-9]*\) x *\([0-9]*\),.*/\1*\2/' | awk -F'*' '{ print $1 * $2 }')
+	m=$(awk -v a="$(mean "$4")" -v b="$(mean "$5")" 'BEGIN { print (a + b) / 2 }')
+	se=$(awk -v r="$rms" -v n="$pixels" 'BEGIN { print r / 2 / sqrt(n) }')
+	awk -v m="$m" -v w="$2" -v s="$se" -v e="$3" 'BEGIN { d = m - w; exit !(d * d <= 16 * (s * s) + e * e && s <= 2e-4 && s > 0) }'
+	ok $? "$1: $m, wanted $2 +- $3, standard error $se"
+}
+hg 0 0.55 >iso.phase
+hg 0.8 0.55 >hg.phase
+hg 0.8 0.45 0.55 0.65 >hg3.phase
+
+# ---- furnace: albedo 1, radiance 1 all around: every pixel is 1, whatever happens inside
+
+cube white.medium 4000000 1 hg.phase
+xsections 100000000 1 0.55 >big.xsect
+grains white-grains.medium 3e5 big.xsect hg.phase
+for t in explicit continuous; do
+	scene furnace.scene white-grains.medium 48 ''
+	vrender furnace.scene --samples 16 --transport $t -o f.exr
+	low=$(stats f.exr Min | awk '{ print $1 }') high=$(stats f.exr Max | awk '{ print $1 }')
+	near "$low" 1 1e-5 && near "$high" 1 1e-5
+	ok $? "furnace, $t: pixels from $low to $high"
+	scene furnace.scene white-grains.medium 48 'ground = { height = -0.9; albedo = 1.0; };'
+	vrender furnace.scene --samples 16 --transport $t -o f.exr
+	low=$(stats f.exr Min | awk '{ print $1 }') high=$(stats f.exr Max | awk '{ print $1 }')
+	near "$low" 1 1e-5 && near "$high" 1 1e-5
+	ok $? "furnace on white ground, $t: pixels from $low to $high"
+	# the same radiance as two suns that are half the sky each: drawn and met, weighed by multiple importance sampling
+	scene suns.scene white-grains.medium 48 'lights = ( { type = "sun"; direction = [0.0, -1.0, 0.2]; irradiance = 3.14159265358979; angle = 180.0; },
+		{ type = "sun"; direction = [0.0, 1.0, -0.2]; irradiance = 3.14159265358979; angle = 180.0; } );'
+	vrender suns.scene --samples 700 --seed 1 --transport $t -o a.exr
+	vrender suns.scene --samples 700 --seed 2 --transport $t -o b.exr
+	agree "furnace of two hemispherical suns, $t" 1 0 a.exr b.exr
+done
+
+# ---- known radiances: two independent programs agree on them
+
+cube cube.medium 4000000 0.99 iso.phase
+lights='lights = ( { type = "environment"; radiance = 0.2; }, { type = "sun"; direction = [-0.6, -1.0, -0.3]; irradiance = 3.14159265; } );'
+scene cube.scene cube.medium 128 "$lights"
+for s in 1 2; do vrender cube.scene --samples 256 --seed $s -o cube$s.exr; done
+agree 'cube of extinction 4, albedo 0.99, isotropic' 0.36437 0.00006 cube1.exr cube2.exr
+
+psd gamma --effective-radius 6um --effective-variance 0.11111111111 --min 0.4um --max 16um --classes 160 |
+	mie-phase --particle 1.333 --wavelength 550nm --average --threads 2 -o c1.phase
+cube c1.medium 6000000 0.999 c1.phase
+scene c1.scene c1.medium 128 "$lights"
+for s in 1 2; do vrender c1.scene --samples 200 --seed $s -o c1$s.exr; done
+agree 'cube of extinction 6, albedo 0.999, Deirmendjian C1' 0.2837 0.0003 c11.exr c12.exr
+
+# ---- Beer and Lambert: black particles, seen against radiance 1 through the middle of the cube (optical depth 2)
+
+cube black.medium 1000000 0 iso.phase
+xsections 800000 0 0.55 >small.xsect
+grains black-grains.medium 1e7 small.xsect iso.phase
+beer='camera = { position = [0.0, 0.0, 1000.0]; target = [0.0, 0.0, 0.0]; fov = 0.1; resolution = [64, 64]; };'
+for t in continuous explicit; do
+	[ $t = explicit ] && medium=black-grains.medium || medium=black.medium
+	echo "$beer medium = { file = \"$medium\"; };" >beer.scene
+	vrender beer.scene --samples 64 --transport $t -o beer.exr
+	# continuous is exact but for sampling, 64^2 x 64 paths, sigma 1.3e-3/2; explicit adds the chance of the particles:
+	# 10 um^2.. a pixel sees few of them, the whole image some 2e7 x 0.8e-6 x .. cells: 4 sigma is below 0.004
+	near "$(mean beer.exr)" 0.1353353 0.004
+	ok $? "Beer and Lambert, $t: $(mean beer.exr)"
+done
+
+# ---- the same bytes: threads, backends, both transports, three wavelengths, groups of wavelengths
+
+xsections 90000000 0.97 0.45 0.55 0.65 >three.xsect
+grains three.medium 3000 three.xsect hg3.phase
+full='lights = ( { type = "environment"; radiance = 0.3; }, { type = "sun"; direction = [-0.6, -1.0, -0.3]; irradiance = 2.0; angle = 10.0; },
+	{ type = "sun"; direction = [1, -1, 0]; irradiance = 1; } ); ground = { height = -1.2; albedo = 0.4; };'
+scene three.scene three.medium 32 "$full"
+for t in explicit continuous; do
+	vrender three.scene --samples 8 --transport $t --threads 1 -o t1.exr
+	vrender three.scene --samples 8 --transport $t --threads 2 -o t2.exr
+	cmp t1.exr t2.exr
+	ok $? "$t: two threads give the bytes of one"
+	vrender three.scene --samples 8 --transport $t --backend opencl -o cl.exr
+	cmp t1.exr cl.exr
+	ok $? "$t: OpenCL gives the bytes of C"
+	oiiotool --stats t1.exr | grep -q 'Stats NanCount: 0 0 0'
+	ok $? "$t: an independent reader finds no NaN"
+done
+scene tiny.scene three.medium 4 "$full"
+for t in explicit continuous; do
+	vrender tiny.scene --samples 1 --transport $t -o c.exr
+	# the ordinary build, since a sanitizer does not go with the simulator's libraries; FN=static, since inlining leaves
+	# intrinsics that the simulator does not know
+	PATH=$top/build/bin:$PATH oclgrind --check-api --build-options '-DFN=static -cl-opt-disable' vrender tiny.scene --samples 1 --transport $t --backend opencl -o grind.exr 2>grind.err
+	is "0 0" "$? $(grep -c . grind.err)" "$t: oclgrind finds nothing wrong"
+	cmp c.exr grind.exr
+	ok $? "$t: and gives the same bytes"
+done
+hg 0.7 0.40 0.42 0.44 0.46 0.48 0.50 0.52 0.54 0.56 0.58 0.60 >many.phase
+xsections 3000000 0.9 0.40 0.42 0.44 0.46 0.48 0.50 0.52 0.54 0.56 0.58 0.60 >many.xsect
+medium-bake --xsect many.xsect --phase many.phase --psd one.psd --concentration 1e6/m3 --sphere 1m -o many.medium
+scene many.scene many.medium 32 ''
+vrender many.scene --samples 64 -o many.exr
+vrender many.scene --samples 64 --backend opencl -o manycl.exr
+cmp many.exr manycl.exr
+ok $? 'eleven wavelengths go in two groups, the same in OpenCL'
+exr2png many.exr -o many.png
+oiiotool --stats many.png >/dev/null
+ok $? 'an independent reader takes our PNG'
+
+# ---- progress only on a terminal, bad input in one line
+
+vrender many.scene --samples 1 -o x.exr 2>err
+is '' "$(cat err)" 'no progress where stderr is no terminal'
+scene typo.scene white.medium 8 'lihgts = ( );'
+refused 'a misspelt key' "typo.scene: line 3: unknown key 'lihgts'" vrender typo.scene -o typo.exr
+scene bad.scene white.medium 8 'ground = { height = "low"; albedo = 0.5; };'
+refused 'a value of the wrong type' 'line 3: must be a number' vrender bad.scene -o typo.exr
+scene bad.scene nowhere.medium 8 ''
+refused 'a medium that is not there' 'nowhere.medium: cannot open' vrender bad.scene -o typo.exr
+scene white.scene white.medium 8 ''
+refused 'explicit needs particles' 'has no particles' vrender white.scene --transport explicit -o typo.exr
+scene hot.scene white.medium 8 'lights = ( { type = "environment"; radiance = 1e9; } );'
+refused 'light beyond what the film can hold' 'too strong' vrender hot.scene --samples 8 -o typo.exr
+refused 'a device that is not there' 'none of the' vrender white.scene --backend opencl --device 60 -o typo.exr
+is '' "$(ls typo.exr* 2>/dev/null)" 'no image appears under its name'
