@@ -2,7 +2,7 @@
 # Pipes: failures travel down, early ends are silent, outputs appear when they are whole.
 # shellcheck source=tests/lib.sh
 . "$(dirname "$0")/lib.sh"
-plan 26
+plan 30
 cd "$tmp" || exit 2
 
 text='# radius:f64:um\tweight:f64:1\n1\t0.5\n3\t0.5\n'
@@ -31,9 +31,13 @@ refused 'two tables one after the other are refused' 'after the end mark' tabtxt
 is "141 0" "$(cat status) $(wc -c <err)" 'head ends tabtxt silently'
 { tabtxt big.tab | txttab 2>err; echo $? >status; } | head -c 10 >/dev/null
 is "141 0" "$(cat status) $(wc -c <err)" 'head ends txttab silently'
+{ (trap '' PIPE; exec tabtxt big.tab) 2>err; echo $? >status; } | head -c 10 >/dev/null
+is "141 0" "$(cat status) $(wc -c <err)" 'even where the signal was left ignored'
 
 # A full disk.
-for command in 'tabtxt t.tab' 'tabtxt --npy t.tab' 'tabtxt big.tab' 'tabcmp t.tab t.tab' 'tabtxt --help' 'tabtxt --version'; do
+oiiotool --pattern noise 64x64 3 -d float -o a.exr
+for command in 'tabtxt t.tab' 'tabtxt --npy t.tab' 'tabtxt big.tab' 'tabcmp t.tab t.tab' 'imgcmp a.exr a.exr' 'exr2png a.exr' \
+	'tabtxt --help' 'tabtxt --version'; do
 	# shellcheck disable=SC2086
 	$command >/dev/full 2>err
 	is "2 1" "$? $(wc -l <err)" "$command says that the disk is full"
@@ -51,10 +55,12 @@ if script -qec true /dev/null >/dev/null 2>&1 </dev/null; then
 	is 'txttab: standard output: is a terminal; binary data goes to a file or a pipe' "$(tr -d '\r' <out)" 'and says what to do'
 	script -qec 'tabtxt --npy t.tab' /dev/null >out 2>&1 </dev/null
 	is 2 $? 'tabtxt refuses to write NumPy to a terminal'
+	script -qec 'exr2png a.exr' /dev/null >out 2>&1 </dev/null
+	is 2 $? 'exr2png refuses to write a picture to a terminal'
 	script -qec 'tabtxt t.tab' /dev/null >out 2>&1 </dev/null
 	is "0 $(cat t.txt)" "$? $(tr -d '\r' <out)" 'text goes there'
 else
-	for i in 1 2 3 4; do echo "ok - terminal $i # skip no terminal to be had"; done
+	for i in 1 2 3 4 5; do echo "ok - terminal $i # skip no terminal to be had"; done
 fi
 
 # An interrupted run leaves nothing, not even where a file cannot be nameless until it is whole (as without /proc).

@@ -46,7 +46,7 @@ struct opt_line {
 };
 
 /* opt_parse - parse argv by the table; --help and --version print and exit 0, anything wrong dies. What it returns lives
- * as long as the program; lists (struct reals) are the caller's to free. */
+ * as long as the program; lists (struct reals) are the caller's to free. SIGPIPE gets its default back. */
 struct opt_line opt_parse(const struct opt_tool *tool, int argc, char **argv);
 
 /* Shared rows. */
