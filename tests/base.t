@@ -4,7 +4,7 @@
 . "$(dirname "$0")/lib.sh"
 tools=$(cd "$top/tools" && echo *.c | sed 's/\.c//g')
 # shellcheck disable=SC2086
-plan $((54 + 3 * $(echo $tools | wc -w)))
+plan $((55 + 3 * $(echo $tools | wc -w)))
 cd "$tmp" || exit 2
 tab=$(printf '\t')
 
@@ -109,6 +109,17 @@ ok $? 'and to 8, a stop darker'
 is 1 "$(oiiotool --stats a8.png | grep -c '61 x *43, 3 channel, uint8 png')" 'the PNG is what it says'
 exr2png a.exr | cmp - a.png
 ok $? 'the same bytes go down a pipe'
+wrong=
+for c in none rle zips zip piz pxr24; do
+	for d in half float; do
+		for shape in '--scanline' '--tile 32 16'; do
+			# shellcheck disable=SC2086
+			oiiotool a.exr -d $d --compression $c $shape -o v.exr && oiiotool v.exr -d float --scanline --compression zip -o f.exr
+			imgcmp v.exr f.exr >out || wrong="$wrong $c/$d/$shape"
+		done
+	done
+done
+is '' "$wrong" 'every compression, half and float, lines and tiles are read as OpenImageIO reads them'
 imgcmp a.exr a.exr >out
 is 0 $? 'an image equals itself'
 imgcmp a.exr b.exr >out

@@ -2,11 +2,11 @@
 # particles: numbers, places, sizes, density grids, and what is refused.
 # Seeds are fixed; with others a statistical test would fail by chance less than once in 1e5.
 . "$(dirname "$0")/lib.sh"
-plan 62
+plan 58
 
 # Numbers are cut to ten digits: the last ones of the radii are the mathematical library's.
-text() { tabtxt "$@" | awk -F'\t' 'NR == 1 { print; next } { for (i = 1; i <= NF; i++) printf("%s%.10g", i > 1 ? "\t" : "", $i); print "" }'; }
-rows() { tabtxt "$@" | sed 1d | wc -l; }
+text() { tabtxt | awk -F'\t' 'NR == 1 { print; next } { for (i = 1; i <= NF; i++) printf("%s%.10g", i > 1 ? "\t" : "", $i); print "" }'; }
+rows() { tabtxt | sed 1d | wc -l; }
 
 # npy TYPE SHAPE [ORDER]: the header of a .npy file; the data follow.
 npy() {
@@ -125,10 +125,10 @@ d() { p --count 1 --box 1m,1m,1m --density t.npy; }
 { npy '<f4' '1, 1, 2'; f4 0 0; } >t.npy; refused 'no density anywhere' '^particles: t.npy: is 0 everywhere' d
 printf 'P5 1 1 255\nxxxxxxxxxx' >t.npy; refused 'another format' '^particles: t.npy: is not a NumPy array' d
 
-# Every file cut short, and every byte of the header in turn changed: one line and exit 2, or a table, but nothing else.
+# A file cut short at every third byte, and every byte of the header in turn changed: one line and exit 2, or a table, but nothing else.
 failures=0
 size=$(wc -c <f4.npy)
-for n in $(seq 0 $((size - 1))); do
+for n in $(seq 0 3 $((size - 1))); do
 	head -c "$n" f4.npy >t.npy
 	d >out 2>err
 	[ $? -eq 2 ] && [ "$(wc -l <err)" -eq 1 ] && ! [ -s out ] || failures=$((failures + 1))

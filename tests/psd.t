@@ -1,7 +1,7 @@
 #!/bin/sh
 # psd: the table it writes, and what it refuses. The classes themselves are checked by psd_moments.c.
 . "$(dirname "$0")/lib.sh"
-plan 33
+plan 35
 
 # Numbers are cut to ten digits: the last ones are the mathematical library's.
 table() { "$@" | tabtxt | awk -F'\t' 'NR == 1 { print; next } { for (i = 1; i <= NF; i++) printf("%s%.10g", i > 1 ? "\t" : "", $i); print "" }'; }
@@ -50,6 +50,8 @@ refused 'a gamma distribution that is all small particles' '^psd: gamma: reaches
 refused 'a standard deviation of 0' '^psd: normal: needs a standard deviation' psd normal --mean 1um --stddev 0um
 refused 'an exponent that is no number' "^psd: --exponent: 'inf' is not a number" psd power --exponent inf --min 1um --max 2um
 refused 'limits exchanged' '^psd: power: has its smallest radius not below its largest' psd power --exponent 2 --min 2um --max 1um
+refused 'a smallest radius beyond the default largest' '^psd: lognormal: .* give its largest' psd lognormal --median 1um --gsd 1.1 --min 5um
+refused 'a largest radius below the default smallest' '^psd: lognormal: .* give its smallest' psd lognormal --median 1um --gsd 1.1 --max 100nm
 refused 'limits where there is nothing' '^psd: lognormal: has no particles' psd lognormal --median 1um --gsd 1.01 --min 1mm --max 2mm
 refused 'no classes' '^psd: --classes: .* out of range' psd lognormal --median 1um --gsd 2 --classes 0
 refused 'half a class' "^psd: --classes: '1.5' is not a whole number" psd lognormal --median 1um --gsd 2 --classes 1.5

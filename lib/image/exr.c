@@ -141,7 +141,7 @@ static void read_header(struct reading *r)
 	if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED)
 		die(r->name, "is a deep image; a flat one is needed");
 	must(r, exr_get_compression(r->file, 0, &compression));
-	if (compression > EXR_COMPRESSION_PXR24)     /* OpenEXRCore 3.1 gets float tiles in B44 wrong, and DWA */
+	if (compression > EXR_COMPRESSION_PXR24)     /* OpenEXRCore 3.1 gets floats in B44 wrong, and lacks DWA */
 		die(r->name, "its compression (B44 or DWA) is not read here; store it with ZIP");
 	must(r, exr_get_data_window(r->file, 0, &window));
 	int64_t width = (int64_t)window.max.x - window.min.x + 1, height = (int64_t)window.max.y - window.min.y + 1;

@@ -226,6 +226,10 @@ static const char *limits(const struct psd *p, struct shape *d, double *min, dou
 	}
 	if (!(*min >= PSD_RADIUS_MIN && *max <= PSD_RADIUS_MAX))
 		return "needs a smallest and a largest radius from 1e-9um to 1e9um";
+	if (!(*min < *max) && isnan(p->max))
+		return "has its smallest radius not below its default largest; give its largest radius";
+	if (!(*min < *max) && isnan(p->min))
+		return "has its largest radius not above its default smallest; give its smallest radius";
 	if (!(*min < *max))
 		return "has its smallest radius not below its largest";
 	/* Further out the density itself underflows: such limits are a slip. */
