@@ -18,7 +18,7 @@ EXR_CFLAGS = $(shell pkg-config --cflags OpenEXR)    # asked for when used: make
 
 TOOLS = $(patsubst tools/%.c,%,$(wildcard tools/*.c))
 CHECKS = $(patsubst tests/%.c,%,$(wildcard tests/*.c))
-GENERATED = $(if $(wildcard lib/optics/materials.awk),materials) $(if $(wildcard lib/render/kern/sources),kernels)
+GENERATED = materials kernels
 OBJECTS = $(patsubst lib/%.c,obj/%.o,$(wildcard lib/*/*.c)) $(GENERATED:%=obj/gen/%.o)
 MAN = $(wildcard man/*.[1-9])
 
@@ -46,7 +46,6 @@ $(1)/tests/%: tests/%.c $(1)/libmotes.a
 endef
 $(eval $(call variant,$(B),))
 $(eval $(call variant,$(B)/asan,$(ASAN)))
-$(eval $(call variant,$(B)/clang,-Werror))
 
 # Tables of data/materials and the kernels' text become C, so that a program needs no files beside it.
 $(B)/gen/materials.c: lib/optics/materials.awk $(wildcard data/materials/*.tsv)

@@ -2,7 +2,7 @@
 # The renderer: bookkeeping (furnace), known radiances, and the same bytes from every way to run it.
 # shellcheck source=tests/lib.sh
 . "$(dirname "$0")/lib.sh"
-plan 35
+plan 30
 cd "$tmp" || exit 2
 export POCL_CACHE_DIR="$tmp/pocl"
 mkdir "$POCL_CACHE_DIR"

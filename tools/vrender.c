@@ -78,20 +78,21 @@ int main(int argc, char **argv)
 		{ "--verbose", OPT_FLAG, &verbose, 0, 0, NULL, "say which model is used, and why", 1 },
 		OPT_END
 	};
-	const struct opt_tool tool = { "[OPTION].. SCENE -o FILE.exr", "Render a scene.", opts, 0 };
+	const struct opt_tool tool = { "[OPTION].. [SCENE] -o FILE.exr", "Render a scene.", opts, 0 };
 	struct opt_line args = opt_parse(&tool, argc, argv);
 	if (list) {
 		cl_list();
 		return fflush(stdout) ? 2 : 0;
 	}
-	if (args.n != 1)
-		die(NULL, "one scene is needed; see vrender --help");
+	if (args.n > 1)
+		die(args.operand[1], "one scene at most");
 	if (!output)
 		die("-o", "is needed");
 	struct scenefile file;
 	struct medium medium;
 	struct job job;
-	scenefile_read(args.operand[0], &file);
+	const char *path = args.n ? args.operand[0] : "-";
+	scenefile_read(path, &file);
 	medium_open(file.medium, &medium);
 	if (transport < 0)
 		transport = medium.n_particles ? TRANSPORT_EXPLICIT : TRANSPORT_CONTINUOUS;
@@ -108,7 +109,7 @@ int main(int argc, char **argv)
 	if (cl)
 		cl_finish(cl);
 	if (job.overflow)
-		die(args.operand[0], "the light is too strong: a pixel's samples sum to more than 2^32; scale the lights down");
+		die(path, "the light is too strong: a pixel's samples sum to more than 2^32; scale the lights down");
 	save(output, &job, (uint32)samples, tab_join(medium.history, file.history, args.history, NULL));
 	job_free(&job);
 	medium_close(&medium);

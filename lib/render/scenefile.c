@@ -174,11 +174,14 @@ static char *canonical(const struct scenefile *s)
 void scenefile_read(const char *path, struct scenefile *s)
 {
 	config_t config;
-	FILE *f = fopen(path, "r");
+	int standard = !strcmp(path, "-");
+	FILE *f = standard ? stdin : fopen(path, "r");
 	if (!f)
 		die(path, "cannot open:");
 	*s = (struct scenefile){ .up = { 0, 1, 0 } };
 	config_init(&config);
+	if (standard)
+		path = "standard input";
 	if (!config_read(&config, f)) {
 		const char *what = config_error_text(&config) ? config_error_text(&config) : "cannot be read";
 		die(path, "line %d: %s%s", config_error_line(&config), what,
