@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define DEVICES_MAX 64
 #define N_BUFFERS 13       /* the scene and the tables */
@@ -30,9 +31,21 @@ static void check(cl_int error, const char *what)
 		die("OpenCL", "%s failed (error %d)", what, error);
 }
 
+/* PoCL aborts the process where it cannot read the machine's memory from /sys, as in a plain chroot: tell it there. */
+static void describe_machine(void)
+{
+	char text[96];
+	if (!access("/sys/devices/system/cpu", F_OK))
+		return;
+	snprintf(text, sizeof text, "numa:1(memory=%lld) pu:%ld", (long long)sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE),
+	         sysconf(_SC_NPROCESSORS_ONLN));
+	setenv("HWLOC_SYNTHETIC", text, 0);
+}
+
 /* All devices of all platforms, in the order that the loader gives. */
 static cl_uint devices(cl_device_id *out)
 {
+	describe_machine();
 	cl_platform_id platform[16];
 	cl_uint n_platforms = 0, n = 0;
 	cl_int error = clGetPlatformIDs(16, platform, &n_platforms);
