@@ -3,7 +3,6 @@
 #include "medium/grid.h"
 #include "render/job.h"
 #include "render/kern/medium.h"
-#include "render/kern/random.h"
 #include "tap.h"
 
 #include <math.h>
@@ -18,7 +17,7 @@ struct cube {
 	struct medium medium;
 	struct scene scene;
 	struct tables tables;
-	float disc[CLASSES * WAVES], most[CLASSES];
+	float disc[CLASSES * WAVES];
 };
 
 /* c[class][wave]: areas in m^2. */
@@ -32,7 +31,7 @@ static struct cube *make(size_t n, const double *c, uint32 seed)
 	for (int i = 0; i < CLASSES * WAVES; i++) {
 		m->c_ext[i] = c[i] * 1e12;
 		q->disc[i] = (float)(c[i] / M_PI);
-		q->most[i / WAVES] = fmaxf(q->most[i / WAVES], q->disc[i]);
+		q->scene.largest = fmaxf(q->scene.largest, q->disc[i]);
 	}
 	m->half[0] = m->half[1] = m->half[2] = 0.5;
 	m->n_particles = n;
@@ -53,8 +52,7 @@ static struct cube *make(size_t n, const double *c, uint32 seed)
 		q->scene.cell[a] = m->cell[a];
 		q->scene.grid_high[a] = m->low[a] + (float)m->cells[a] * m->cell[a];
 	}
-	q->tables = (struct tables){ .disc = q->disc, .disc_most = q->most, .particle = m->particle, .first = m->first,
-		.reference = m->reference };
+	q->tables = (struct tables){ .disc = q->disc, .particle = m->particle, .first = m->first };
 	return q;
 }
 
@@ -63,7 +61,6 @@ static void drop(struct cube *q)
 	free(q->medium.c_ext);
 	free(q->medium.particle);
 	free(q->medium.first);
-	free(q->medium.reference);
 	free(q);
 }
 
@@ -89,7 +86,7 @@ static int brute(const struct cube *q, struct ray r, float t_end, int wave)
 static struct ray some_ray(uint32 k, size_t n)
 {
 	struct random r = random_of(77, k, 0);
-	struct ray ray = { vec3(3 * draw(&r, 0) - 1.5f, 3 * draw(&r, 1) - 1.5f, 3 * draw(&r, 2) - 1.5f), vec3(0, 0, 0), NONE };
+	struct ray ray = { vec3(3 * draw(&r, 0) - 1.5f, 3 * draw(&r, 1) - 1.5f, 3 * draw(&r, 2) - 1.5f), vec3(0, 0, 0), NONE, 0 };
 	struct vec to = vec3(draw(&r, 3) - 0.5f, draw(&r, 4) - 0.5f, draw(&r, 5) - 0.5f);
 	ray.along = unit3(sub(to, ray.from));
 	if (k % 16 == 0)           /* along an axis, exactly */
@@ -106,14 +103,13 @@ static void compare(size_t n, double area, const char *what)
 	struct waves w = { WAVES, 0, 1 };
 	long wrong = 0, met = 0, rays = 3000;
 	for (uint32 k = 0; k < rays; k++) {
-		float t[WAVES], end = k % 5 ? FAR : 1.2f;
-		int id[WAVES];
+		float end = k % 5 ? FAR : 1.2f;
 		struct ray r = some_ray(k, n);
-		struct vec entry;
-		first_particles(&q->scene, &q->tables, r, end, w, t, id, &entry);
+		struct gathered g;
+		gather(&q->scene, &q->tables, r, end, w, NULL, GATHER_FIRST, &g);
 		for (int j = 0; j < WAVES; j++) {
-			wrong += id[j] != brute(q, r, end, j);
-			met += id[j] != NONE;
+			wrong += g.id[j] != brute(q, r, end, j);
+			met += g.id[j] != NONE;
 		}
 	}
 	ok(!wrong && met > 100, "%s: %ld rays meet what looking at every particle finds (%ld meetings, %ld differ)", what, rays, met, wrong);
@@ -147,7 +143,7 @@ static void transmits(double tau)
 				d[axis] = 1;
 				p[(axis + 1) % 3] = ((float)(i % side) + 0.5f) / (float)side - 0.5f;
 				p[(axis + 2) % 3] = ((float)(i / side) + 0.5f) / (float)side - 0.5f;
-				struct ray r = { load3(p), load3(d), NONE };
+				struct ray r = { load3(p), load3(d), NONE, 0 };
 				transmittance(&q->scene, &q->tables, r, FAR, w, through);
 				sum += through[1];
 				samples++;

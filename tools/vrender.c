@@ -65,12 +65,13 @@ int main(int argc, char **argv)
 {
 	const char *output = NULL;
 	long long samples = 64, seed = 1, threads = sysconf(_SC_NPROCESSORS_ONLN), device = 0;
-	int transport = -1, backend = 0, list = 0, verbose = 0;
+	int transport = -1, attenuation = 0, backend = 0, list = 0, verbose = 0;
 	const struct opt opts[] = {
 		{ "-o", OPT_FILE, &output, 0, 0, "FILE.exr", "the image", 1 },
 		{ "--samples", OPT_INT, &samples, 1, 1e9, "N", "paths a pixel", 0 },
 		{ "--seed", OPT_INT, &seed, 0, 4294967295.0, "S", "of the random numbers", 0 },
-		{ "--transport", OPT_CHOICE, &transport, 0, 0, "explicit|continuous", "model of the medium; default: explicit for particles", 0 },
+		{ "--transport", OPT_CHOICE, &transport, 0, 0, "explicit|fat-ray|grid|continuous", "model of the medium; default: explicit for particles", 0 },
+		{ "--attenuation", OPT_CHOICE, &attenuation, 0, 0, "product|exponential", "of fat rays; exponential is biased", 0 },
 		{ "--backend", OPT_CHOICE, &backend, 0, 0, "c|opencl", "what runs the kernels", 1 },
 		{ "--device", OPT_INT, &device, 0, 63, "I", "OpenCL device", 1 },
 		{ "--list-devices", OPT_FLAG, &list, 0, 0, NULL, "list the OpenCL devices and exit", 1 },
@@ -96,12 +97,12 @@ int main(int argc, char **argv)
 	medium_open(file.medium, &medium);
 	if (transport < 0)
 		transport = medium.n_particles ? TRANSPORT_EXPLICIT : TRANSPORT_CONTINUOUS;
-	else if (transport == TRANSPORT_EXPLICIT && !medium.n_particles)
-		die(file.medium, "has no particles for --transport explicit; bake it from particles, or render it as continuous");
-	job_make(&job, &file, &medium, transport, (uint32)seed);
+	else if ((transport == TRANSPORT_EXPLICIT || transport == TRANSPORT_FAT_RAY) && !medium.n_particles)
+		die(file.medium, "has no particles, which explicit and fat-ray need; bake it from particles, or render it as grid or continuous");
+	job_make(&job, &file, &medium, transport, attenuation, (uint32)seed);
 	if (verbose)
 		warn(file.medium, "%s: %zu particles, %d classes, %d wavelengths, optical depth %.4g along the shortest axis",
-		     transport == TRANSPORT_EXPLICIT ? "explicit" : "continuous", medium.n_particles, medium.n_classes, medium.n_waves,
+		     (const char *[]){ "explicit", "fat-ray", "grid", "continuous" }[transport], medium.n_particles, medium.n_classes, medium.n_waves,
 		     job.tables.extinction[0] * 2 * fmin(medium.half[0], fmin(medium.half[1], medium.half[2])));
 
 	struct cl *cl = backend ? cl_start(&job, (int)device) : NULL;

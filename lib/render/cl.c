@@ -125,9 +125,10 @@ struct cl *cl_start(struct job *j, int device)
 	const struct tables *t = &j->tables;
 	const struct { const void *p; size_t size; } table[N_BUFFERS] = {
 		{ &j->scene, sizeof j->scene }, { t->extinction, j->n_extinction * 4 }, { t->disc, j->n_disc * 4 },
-		{ t->disc_most, j->n_disc_most * 4 }, { t->albedo, j->n_albedo * 4 }, { t->colour, j->n_colour * 4 },
+		{ t->albedo, j->n_albedo * 4 }, { t->colour, j->n_colour * 4 },
 		{ t->node, j->n_node * 4 }, { t->theta, j->n_theta * 4 }, { t->p, j->n_p * 4 }, { t->cdf, j->n_cdf * 4 },
-		{ t->particle, j->n_particle * 4 }, { t->first, j->n_first * 4 }, { t->reference, j->n_reference * 4 },
+		{ t->particle, j->n_particle * 4 }, { t->first, j->n_first * 4 }, { t->voxel, j->n_voxel * 4 },
+		{ t->count, j->n_count * 4 },
 	};
 	cl_uint arg = 0;
 	for (; arg < N_BUFFERS; arg++) {

@@ -36,6 +36,7 @@ static void camera(struct scene *s, const struct scenefile *f)
 		s->right[i] = (float)(right[i] * half * f->width / longer);
 		s->up[i] = (float)(up[i] * half * f->height / longer);
 	}
+	s->footprint = (float)pow(2 * half / longer, 2);
 	s->width = f->width;
 	s->height = f->height;
 }
@@ -69,29 +70,30 @@ static void optics(struct job *j, const struct medium *m)
 {
 	size_t waves = (size_t)m->n_waves, classes = (size_t)m->n_classes;
 	float *extinction = xalloc(waves, sizeof(float)), *disc = xalloc(classes * waves, sizeof(float));
-	float *most = xalloc(classes, sizeof(float)), *albedo = xalloc((classes + 1) * waves, sizeof(float));
+	float *albedo = xalloc((classes + 1) * waves, sizeof(float));
 	float (*colour)[3] = xalloc(waves, sizeof *colour);
 	for (size_t w = 0; w < waves; w++) {
 		double ext = 0, sca = 0;
 		for (size_t k = 0; k < classes; k++) {
 			double c_ext = m->c_ext[k * waves + w], c_sca = m->c_sca[k * waves + w];
 			disc[k * waves + w] = (float)(c_ext * 1e-12 / M_PI);
-			most[k] = fmaxf(most[k], disc[k * waves + w]);
+			j->scene.largest = fmaxf(j->scene.largest, disc[k * waves + w]);
 			albedo[k * waves + w] = (float)fmin(1, c_sca / c_ext);
 			ext += m->count[k] * c_ext;
 			sca += m->count[k] * c_sca;
 		}
-		extinction[w] = (float)(ext * 1e-12 / medium_volume(m));
+		/* of the whole medium; on a density grid, where the density is 1 */
+		double volume = j->scene.transport == TRANSPORT_GRID && m->n_density ? m->matter : medium_volume(m);
+		extinction[w] = volume > 0 ? (float)(ext * 1e-12 / volume) : 0;
 		albedo[classes * waves + w] = ext > 0 ? (float)fmin(1, sca / ext) : 0;
 	}
 	const char *wrong = colour_weights(m->n_waves, m->wavelength, colour);
 	if (wrong)
 		die("medium", "%s", wrong);
-	j->tables = (struct tables){ extinction, disc, most, albedo, &colour[0][0], m->node, m->theta, m->p, m->cdf, m->particle,
-		m->first, m->reference };
+	j->tables = (struct tables){ extinction, disc, albedo, &colour[0][0], m->node, m->theta, m->p, m->cdf, m->particle, m->first,
+		NULL, NULL };
 	j->n_extinction = waves;
 	j->n_disc = classes * waves;
-	j->n_disc_most = classes;
 	j->n_albedo = (classes + 1) * waves;
 	j->n_colour = 3 * waves;
 	j->n_node = 2 * (classes + 1);
@@ -99,18 +101,65 @@ static void optics(struct job *j, const struct medium *m)
 	j->n_p = j->n_cdf = m->n_nodes * waves;
 	j->n_particle = 4 * m->n_particles;
 	j->n_first = m->n_first;
-	j->n_reference = m->n_references;
 }
 
-void job_make(struct job *j, const struct scenefile *file, const struct medium *medium, int transport, uint32 seed)
+/* Extinction in the cubes of the finest level. A cube that the box cuts has its particles in the part inside. */
+static float *extinctions(const struct medium *m, size_t n)
+{
+	size_t waves = (size_t)m->n_waves, classes = (size_t)m->n_classes;
+	float *sigma = xalloc(n * waves, sizeof *sigma);
+	for (size_t v = 0; v < n; v++) {
+		const int32_t i[3] = { (int32_t)(v % (size_t)m->voxels[0]), (int32_t)(v / (size_t)m->voxels[0] % (size_t)m->voxels[1]),
+			(int32_t)(v / (size_t)m->voxels[0] / (size_t)m->voxels[1]) };
+		double volume = 1;
+		for (int a = 0; a < 3; a++)
+			volume *= fmin(m->voxel, 2 * m->half[a] - i[a] * m->voxel);
+		for (size_t w = 0; w < waves; w++) {
+			double c = 0;
+			for (size_t k = 0; k < classes; k++)
+				c += m->voxel_count[v * classes + k] * m->c_ext[k * waves + w];
+			sigma[v * waves + w] = (float)(c * 1e-12 / volume);
+		}
+	}
+	return sigma;
+}
+
+static void voxels(struct job *j, const struct medium *m)
+{
+	struct scene *s = &j->scene;
+	size_t n = (size_t)m->voxels[0] * (size_t)m->voxels[1] * (size_t)m->voxels[2];
+	s->counted = m->n_particles > 0;
+	for (int a = 0; a < 3; a++) {
+		s->voxels[a] = m->voxels[a];
+		s->voxel_low[a] = (float)-m->half[a];
+		s->voxel_high[a] = (float)m->half[a];
+		s->voxel[a] = (float)(s->counted ? m->voxel : 2 * m->half[a] / m->voxels[a]);
+	}
+	if (s->transport != TRANSPORT_GRID)
+		return;
+	if (s->counted) {
+		j->voxel = extinctions(m, n);
+		j->n_voxel = n * (size_t)m->n_waves;
+		j->tables.count = m->voxel_count;
+		j->n_count = n * (size_t)m->n_classes;
+	} else {
+		j->n_voxel = n;
+	}
+	j->tables.voxel = s->counted ? j->voxel : m->density;
+}
+
+void job_make(struct job *j, const struct scenefile *file, const struct medium *medium, int transport, int attenuation,
+              uint32 seed)
 {
 	struct scene *s = &j->scene;
 	memset(j, 0, sizeof *j);
+	s->seed = seed;
+	s->transport = transport;
+	s->attenuation = attenuation;
 	camera(s, file);
 	lights(s, file);
 	optics(j, medium);
-	s->seed = seed;
-	s->transport = transport;
+	voxels(j, medium);
 	s->n_waves = medium->n_waves;
 	s->n_groups = (medium->n_waves + MAX_WAVES - 1) / MAX_WAVES;
 	s->n_classes = medium->n_classes;
@@ -129,8 +178,8 @@ void job_free(struct job *j)
 {
 	free((void *)(size_t)j->tables.extinction);
 	free((void *)(size_t)j->tables.disc);
-	free((void *)(size_t)j->tables.disc_most);
 	free((void *)(size_t)j->tables.albedo);
 	free((void *)(size_t)j->tables.colour);
+	free(j->voxel);
 	free(j->film);
 }

@@ -21,7 +21,7 @@ struct path {
 	float rgb[3];
 };
 
-enum { DRAW_FLIGHT, DRAW_ANGLE, DRAW_AZIMUTH, DRAW_ROULETTE, DRAW_LIGHT, DRAW_LIGHT_1, DRAW_LIGHT_2 };
+enum { DRAW_FLIGHT, DRAW_CLASS, DRAW_ANGLE, DRAW_AZIMUTH, DRAW_ROULETTE, DRAW_LIGHT, DRAW_LIGHT_1, DRAW_LIGHT_2 };
 enum { DRAW_PIXEL_X, DRAW_PIXEL_Y, DRAW_HERO, DRAW_GROUP };
 
 FN void see(const struct tables *tab, struct path *p, int j, float radiance)
@@ -54,6 +54,10 @@ FN struct path path_begin(const struct scene *s, uint32 pixel, uint32 sample)
 	p.ray.from = load3(s->eye);
 	p.ray.along = unit3(add(load3(s->forward), add(scale(load3(s->right), x), scale(load3(s->up), y))));
 	p.ray.skip = NONE;
+	/* A fat ray covers the pixel's footprint where the ray enters the medium, and no less than any particle (eq 23). */
+	float t0, t1, slant = dot3(p.ray.along, load3(s->forward));
+	clip_medium(s, p.ray, &t0, &t1);
+	p.ray.area = most(PI * s->largest, t0 < t1 ? s->footprint * slant * slant * slant * t0 * t0 : 0.f);
 	p.waves.step = s->n_groups;
 	p.waves.first = (int)(draw(&p.random, DRAW_GROUP) * (float)s->n_groups);
 	p.waves.n = (s->n_waves - p.waves.first + s->n_groups - 1) / s->n_groups;
@@ -96,7 +100,7 @@ FN void see_light(const struct scene *s, const struct tables *tab, struct path *
 		return;
 	int i = (int)(draw(&p->random, DRAW_LIGHT) * (float)s->n_lights);
 	const struct light *l = &s->light[i];
-	struct ray r = { point, load3(l->towards), id };
+	struct ray r = { point, load3(l->towards), id, p->ray.area };
 	if (l->cap > 0.f) {        /* uniform over the disc, in 1 - cos */
 		float c = l->cap * draw(&p->random, DRAW_LIGHT_1);
 		r.along = around(r.along, root(c * (2.f - c)), 1.f - c, 2.f * PI * draw(&p->random, DRAW_LIGHT_2));
@@ -146,7 +150,7 @@ FN int path_bounce(const struct scene *s, const struct tables *tab, struct path 
 {
 	float event[MAX_WAVES];
 	float t_ground = ground_distance(s, p->ray);
-	struct collision c = free_flight(s, tab, p->ray, t_ground, p->waves, p->hero, draw(&p->random, DRAW_FLIGHT), event);
+	struct collision c = free_flight(s, tab, p->ray, t_ground, p->waves, p->hero, &p->random, DRAW_FLIGHT, event);
 	float mean = take_event(p, event);
 	if (!(mean > 0.f))
 		return 0;
