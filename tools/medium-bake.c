@@ -101,7 +101,7 @@ static char *from_particles(const char *path, int bounded, struct medium *m)
 			die(tab_path(t), "row %llu: radius %g um fits none of the %d classes of --xsect", number, row[radius], m->n_classes);
 		for (int a = 0; a < 3; a++) {
 			if (!(fabs(q[a]) < 1e9))
-				die(tab_path(t), "row %llu: a position is not a finite length", number);
+				die(tab_path(t), "row %llu: a position is not within 1e9 m", number);
 			low[a] = fmin(low[a], q[a]);
 			high[a] = fmax(high[a], q[a]);
 		}
@@ -122,9 +122,9 @@ static char *from_particles(const char *path, int bounded, struct medium *m)
 	if (!m->n_particles)
 		die(tab_path(t), "has no rows");
 	/* Without a box: the bounding box of the centres about the origin, widened by what n uniform centres leave free on the
-	 * average. */
+	 * average, and no less than a particle. */
 	for (int a = 0; a < 3 && !bounded; a++)
-		m->half[a] = fmax(fabs(low[a]), fabs(high[a])) * (1 + 1.0 / (double)m->n_particles) + 1e-9 * m->radius[m->n_classes - 1];
+		m->half[a] = fmax(fmax(fabs(low[a]), fabs(high[a])) * (1 + 1.0 / (double)m->n_particles), 1e-6 * m->radius[m->n_classes - 1]);
 	char *history = xtext("%s", tab_history(t));
 	tab_close(t);
 	return history;

@@ -1,6 +1,7 @@
 /* vrender - render a scene: a medium under its lights, by path tracing. */
 #include "base/die.h"
 #include "base/opt.h"
+#include "base/out.h"
 #include "base/tab.h"
 #include "image/exr.h"
 #include "render/job.h"
@@ -82,8 +83,10 @@ int main(int argc, char **argv)
 	const struct opt_tool tool = { "[OPTION].. [SCENE] -o FILE.exr", "Render a scene.", opts, 0 };
 	struct opt_line args = opt_parse(&tool, argc, argv);
 	if (list) {
-		cl_list();
-		return fflush(stdout) ? 2 : 0;
+		struct out out = out_open(NULL, 0);
+		cl_list(out.f);
+		out_close(&out);
+		return 0;
 	}
 	if (args.n > 1)
 		die(args.operand[1], "one scene at most");

@@ -61,14 +61,14 @@ static cl_uint devices(cl_device_id *out)
 	return n;
 }
 
-void cl_list(void)
+void cl_list(FILE *out)
 {
 	cl_device_id device[DEVICES_MAX];
 	char name[256];
 	cl_uint n = devices(device);
 	for (cl_uint i = 0; i < n; i++) {
 		check(clGetDeviceInfo(device[i], CL_DEVICE_NAME, sizeof name, name, NULL), "asking for a device's name");
-		printf("%u\t%s\n", i, name);
+		fprintf(out, "%u\t%s\n", i, name);
 	}
 }
 

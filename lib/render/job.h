@@ -7,6 +7,7 @@
 #include "render/scenefile.h"
 
 #include <stddef.h>
+#include <stdio.h>
 
 struct job {
 	struct scene scene;
@@ -29,7 +30,7 @@ void render_c(struct job *j, uint32 first, uint32 n, int threads);
 
 /* The same by OpenCL, whose device holds the tables and the film meanwhile. Each dies with one line on any failure. */
 struct cl;
-void cl_list(void);
+void cl_list(FILE *out);    /* a line a device: number, name */
 struct cl *cl_start(struct job *j, int device);
 void cl_render(struct cl *c, uint32 first, uint32 n);
 void cl_finish(struct cl *c);      /* brings the film back */

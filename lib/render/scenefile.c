@@ -75,8 +75,11 @@ static void numbers(const char *path, config_setting_t *s, int n, double *out)
 {
 	if (!config_setting_is_aggregate(s) || config_setting_is_group(s) || config_setting_length(s) != n)
 		bad(path, s, "must be %d numbers [a, b%s]", n, n == 3 ? ", c" : "");
-	for (int i = 0; i < n; i++)
+	for (int i = 0; i < n; i++) {
 		out[i] = value(path, config_setting_get_elem(s, (unsigned)i));
+		if (!(fabs(out[i]) <= 1e9))
+			bad(path, s, "%g is out of range (at most 1e9)", out[i]);
+	}
 }
 
 static void optional3(const char *path, config_setting_t *group, const char *name, double *out)
@@ -128,8 +131,9 @@ static void light(const char *path, config_setting_t *g, struct scenefile *s)
 		struct sun *sun = &s->sun[s->n_suns++];
 		config_setting_t *direction = need(path, g, "direction");
 		numbers(path, direction, 3, sun->direction);
-		if (!(fabs(sun->direction[0]) + fabs(sun->direction[1]) + fabs(sun->direction[2]) > 0))
-			bad(path, direction, "direction is zero");
+		double length = fabs(sun->direction[0]) + fabs(sun->direction[1]) + fabs(sun->direction[2]);
+		if (!(length > 1e-9 && length < 1e9))
+			bad(path, direction, "direction must have a length from 1e-9 to 1e9");
 		sun->irradiance = number(path, g, "irradiance", 0, 1e9);
 		sun->angle = config_setting_get_member(g, "angle") ? number(path, g, "angle", 0, 180) : 0;
 		if (sun->angle > 0 && sun->angle < 0.01)
@@ -182,6 +186,10 @@ void scenefile_read(const char *path, struct scenefile *s)
 	config_init(&config);
 	if (standard)
 		path = "standard input";
+	int first = getc(f);       /* libconfig's scanner exits by itself where reading fails, as of a folder */
+	if (first == EOF && ferror(f))
+		die(path, "cannot read:");
+	ungetc(first, f);
 	if (!config_read(&config, f)) {
 		const char *what = config_error_text(&config) ? config_error_text(&config) : "cannot be read";
 		die(path, "line %d: %s%s", config_error_line(&config), what,
