@@ -252,7 +252,7 @@ static void table(double tau)
 	printf("# tau %g\n# C/A\tlaw\tmean\terror\ttheory\tbeer\n", tau);
 	for (size_t law = 1; law < 3; law++) {
 		for (double ratio = 0.05; ratio <= 1.0001; ratio += 0.095) {
-			struct moments m = transmittances(tau, ratio * 2e-4, 2e-4, laws[law].transport, laws[law].attenuation, 8);
+			struct moments m = transmittances(tau, ratio * 2e-4, 2e-4, laws[law].transport, laws[law].attenuation, 20);
 			double mean = m.sum[1] / m.n, error = sqrt((m.sum[2] / m.n - mean * mean) / (m.n - 1));
 			printf("%.3f\t%s\t%.5f\t%.5f\t%.5f\t%.5f\n", ratio, laws[law].name, mean, error,
 			       theory(tau, ratio, laws[law].transport, laws[law].attenuation, 1), exp(-tau));
