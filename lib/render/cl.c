@@ -9,7 +9,7 @@
 #include <string.h>
 
 #define DEVICES_MAX 64
-#define N_BUFFERS 13       /* the scene and the tables */
+#define N_BUFFERS 15       /* the scene and the tables */
 
 struct cl {
 	struct job *job;
@@ -115,6 +115,7 @@ struct cl *cl_start(struct job *j, int device)
 		{ t->disc_most, j->n_disc_most * 4 }, { t->albedo, j->n_albedo * 4 }, { t->colour, j->n_colour * 4 },
 		{ t->node, j->n_node * 4 }, { t->theta, j->n_theta * 4 }, { t->p, j->n_p * 4 }, { t->cdf, j->n_cdf * 4 },
 		{ t->particle, j->n_particle * 4 }, { t->first, j->n_first * 4 }, { t->reference, j->n_reference * 4 },
+		{ t->map, j->n_map * 4 }, { t->map_cdf, j->n_map_cdf * 4 },
 	};
 	cl_uint arg = 0;
 	for (; arg < N_BUFFERS; arg++) {
