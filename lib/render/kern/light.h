@@ -52,11 +52,11 @@ FN float quad_density(const struct scene *s, const struct light *q, struct vec a
 
 /* ------------------------------------------------------------------ the map: latitude and longitude, constant over a texel */
 
-/* Solid angle of a texel. */
+/* Solid angle of a texel: by the polar angle of its middle, from the nearer pole, where the sine is relative. */
 FN float texel_angle(const struct scene *s, int row)
 {
-	float sn, cs, step = PI / (float)s->map_height;
-	sincos_of(((float)row + 0.5f) * step, &sn, &cs);
+	float sn, cs, from = (float)(row < s->map_height / 2 ? row : s->map_height - 1 - row);
+	sincos_of((from + 0.5f) * (PI / (float)s->map_height), &sn, &cs);
 	return sn * s->map_angle;
 }
 
