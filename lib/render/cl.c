@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #define DEVICES_MAX 64
-#define N_BUFFERS 13       /* the scene and the tables */
+#define N_BUFFERS 15       /* the scene and the tables */
 
 struct cl {
 	struct job *job;
@@ -129,6 +129,7 @@ struct cl *cl_start(struct job *j, int device)
 		{ t->node, j->n_node * 4 }, { t->theta, j->n_theta * 4 }, { t->p, j->n_p * 4 }, { t->cdf, j->n_cdf * 4 },
 		{ t->particle, j->n_particle * 4 }, { t->first, j->n_first * 4 }, { t->voxel, j->n_voxel * 4 },
 		{ t->count, j->n_count * 4 },
+		{ t->map, j->n_map * 4 }, { t->map_cdf, j->n_map_cdf * 4 },
 	};
 	cl_uint arg = 0;
 	for (; arg < N_BUFFERS; arg++) {

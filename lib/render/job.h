@@ -13,7 +13,8 @@ struct job {
 	struct scene scene;
 	struct tables tables;
 	/* elements of each table, in the order of struct tables */
-	size_t n_extinction, n_disc, n_albedo, n_colour, n_node, n_theta, n_p, n_cdf, n_particle, n_first, n_voxel, n_count;
+	size_t n_extinction, n_disc, n_albedo, n_colour, n_node, n_theta, n_p, n_cdf, n_particle, n_first, n_voxel, n_count,
+		n_map, n_map_cdf;
 	float *voxel;              /* extinctions in cubes, made here */
 	int64 *film;               /* [pixel][3] sums in units of 2^-30 */
 	int overflow;              /* a sum went beyond the film's limit */
