@@ -39,8 +39,8 @@ oiiotool --pattern constant:color=1,1,1 8x4 3 -d float -o ones.exr
 for phase in hg goa; do
 	cube $phase.medium 4000000 1 $phase.phase
 	grains $phase-grains.medium 3e5 big.xsect $phase.phase
-	for t in explicit continuous; do
-		[ $t = explicit ] && medium=$phase-grains.medium || medium=$phase.medium
+	for t in explicit fat-ray grid continuous; do
+		[ $t != continuous ] && medium=$phase-grains.medium || medium=$phase.medium
 		scene map.scene "$medium" 32 'lights = ( { type = "environment"; file = "ones.exr"; } );'
 		pair map.scene 130 $t
 		agree "furnace of a map, $phase, $t" 1 0 1e-3 pair1.exr pair2.exr
@@ -53,8 +53,8 @@ for phase in hg goa; do
 		agree "furnace of two hemispherical suns, $phase, $t" 1 0 1e-3 pair1.exr pair2.exr
 	done
 done
-for t in explicit continuous; do
-	[ $t = explicit ] && medium=hg-grains.medium || medium=hg.medium
+for t in explicit fat-ray grid continuous; do
+	[ $t != continuous ] && medium=hg-grains.medium || medium=hg.medium
 	# the walls touch the medium: points as near to a light as they like, and light that grazes
 	echo "camera = { position = [0.9, 0.8, 0.95]; target = [0.0, 0.0, 0.0]; fov = 60.0; resolution = [32, 32]; };
 		medium = { file = \"$medium\"; }; lights = ( $(box 1 1.0) );" >tight.scene
@@ -88,8 +88,8 @@ octant() { # octant SIGNS COLOUR: three faces of a large box
 }
 # columns of a map from the left: -x +z, -x -z, +x -z, +x +z
 quads="$(octant '-1 1 1' '4.0, 1.0, 0.0'), $(octant '1 1 -1' '0.0, 2.0, 1.0'), $(octant '1 1 1' '1.0, 0.0, 3.0'), $(octant '-1 -1 -1' '2.0, 2.0, 6.0')"
-for t in explicit continuous; do
-	[ $t = explicit ] && medium=hg-grains.medium || medium=hg.medium
+for t in explicit fat-ray grid continuous; do
+	[ $t != continuous ] && medium=hg-grains.medium || medium=hg.medium
 	scene octants.scene "$medium" 24 'lights = ( { type = "environment"; file = "octants.exr"; } );'
 	pair octants.scene 400 $t
 	for s in 1 2; do mv pair$s.exr map$s.exr; done
@@ -201,7 +201,7 @@ all="lights = ( { type = \"environment\"; radiance = [0.1, 0.2, 0.3]; }, { type 
 	ground = { height = -1.2; albedo = 0.4; };"
 scene all.scene three.medium 32 "$all"
 scene tiny.scene three.medium 4 "$all"
-for t in explicit continuous; do
+for t in explicit fat-ray grid continuous; do
 	vrender all.scene --samples 16 --transport $t --threads 1 -o c.exr
 	vrender all.scene --samples 16 --transport $t --threads 2 -o two.exr
 	cmp c.exr two.exr
