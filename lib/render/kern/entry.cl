@@ -9,5 +9,5 @@ __kernel void render(__global const struct scene *scene, __global const float *e
 	struct tables t = { extinction, disc, disc_most, albedo, colour, node, theta, p, cdf, particle, first, reference };
 	uint32 pixel = (uint32)get_global_id(0);
 	if (pixel < n_pixels)
-		render_pixel(&s, &t, film + 3 * pixel, overflow, pixel, first_sample, n_samples);
+		render_pixel(&s, &t, film + (long)s.film_sums * pixel, overflow, pixel, first_sample, n_samples);
 }

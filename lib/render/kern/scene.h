@@ -33,6 +33,9 @@ struct scene {
 	float environment;         /* radiance */
 	int n_lights;
 	struct light light[MAX_LIGHTS];
+	int film_sums;             /* of a pixel: FILM_SUMS, and one a wavelength if spectral */
+	int spectral;
+	float depth_scale;         /* a power of 2: depths times this are below 1 */
 };
 
 struct tables {
