@@ -164,6 +164,7 @@ vrender three.scene --sample-range 0:3 --samples 9 -o a.exr
 vrender three.scene --sample-range 3:4 --samples 9 -o b.exr
 vrender three.scene --sample-range 4:9 --samples 9 -o c.exr
 vrender three.scene --samples 9 -o whole.exr
+vrender three.scene --sample-range 2:5 --samples 9 -o overlap.exr
 exr-merge -o ab.exr a.exr b.exr
 exr-merge -o m.exr c.exr ab.exr
 cmp whole.exr m.exr
@@ -175,8 +176,9 @@ oiiotool --stats whole.exr >stats.txt && oiiotool --stats ab.exr >>stats.txt && 
 ok $? 'an independent reader takes both, and finds nothing that is no number'
 imgcmp --channels R,G,B,A,single.G ab.exr ab.exr >/dev/null && exr2png ab.exr -o ab.png
 ok $? 'and so do our own, a part like a whole'
+imgcmp --max 9e9 a.exr c.exr >out && ! grep sum out && ! imgcmp ab.exr overlap.exr >out && grep -q 'sum.R.lo: other integers' out
+ok $? 'their sums are compared bit by bit, never as numbers'
 
-vrender three.scene --sample-range 2:5 --samples 9 -o overlap.exr
 refused 'samples twice' 'overlap.exr: its samples 2:5 of 9 are in part among' exr-merge -o x.exr a.exr overlap.exr
 refused 'a part twice' 'a.exr: its samples' exr-merge -o x.exr a.exr b.exr a.exr
 vrender three.scene --sample-range 3:4 --samples 9 --seed 2 -o seed.exr
