@@ -2,6 +2,7 @@
 
 #include "base/die.h"
 #include "render/colour.h"
+#include "render/kern/film.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -231,7 +232,23 @@ void job_make(struct job *j, const struct scenefile *file, const struct medium *
 		s->cell[a] = medium->cell[a];
 		s->grid_high[a] = (float)(medium->low[a] + (double)medium->cells[a] * medium->cell[a]);
 	}
-	j->film = xalloc((size_t)file->width * (size_t)file->height * 3, sizeof *j->film);
+}
+
+void job_film(struct job *j, int spectral)
+{
+	struct scene *s = &j->scene;
+	double eye = 0, corner = 0;
+	int exponent;
+	for (int a = 0; a < 3; a++) {
+		double most = fmax(s->extent[s->round ? 0 : a], s->cells[a] ? fmax(-s->grid_low[a], s->grid_high[a]) : 0);
+		eye += (double)s->eye[a] * s->eye[a];
+		corner += most * most;
+	}
+	frexp(sqrt(eye) + sqrt(corner), &exponent);
+	s->depth_scale = (float)ldexp(1, -exponent);
+	s->spectral = spectral;
+	s->film_sums = FILM_SUMS + (spectral ? s->n_waves : 0);
+	j->film = xalloc((size_t)s->width * (size_t)s->height, (size_t)s->film_sums * sizeof *j->film);
 }
 
 void job_free(struct job *j)

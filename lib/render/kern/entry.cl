@@ -11,5 +11,5 @@ __kernel void render(__global const struct scene *scene, __global const float *e
 		map_cdf };
 	uint32 pixel = (uint32)get_global_id(0);
 	if (pixel < n_pixels)
-		render_pixel(&s, &t, film + 3 * pixel, overflow, pixel, first_sample, n_samples);
+		render_pixel(&s, &t, film + (long)s.film_sums * pixel, overflow, pixel, first_sample, n_samples);
 }

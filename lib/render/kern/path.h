@@ -18,7 +18,11 @@ struct path {
 	float weight[MAX_WAVES], density[MAX_WAVES];
 	float chance;              /* density of the ray's direction, sr^-1; 0 from the camera, where no light is drawn */
 	struct random random;
-	float rgb[3];
+	float rgb[3];              /* seen since the medium last scattered the path */
+	int order;                 /* times that it did, from 2 on 2; reflections by surfaces do not count */
+	float before[2][3];        /* what was seen unscattered, and scattered once, of an order that is over */
+	float depth;               /* along the camera's ray to where the medium scattered it, -1 if it did not */
+	float spectrum[MAX_WAVES]; /* all that was seen, by wavelength */
 };
 
 enum { DRAW_FLIGHT, DRAW_CLASS, DRAW_ANGLE, DRAW_AZIMUTH, DRAW_ROULETTE, DRAW_LIGHT, DRAW_LIGHT_1, DRAW_LIGHT_2 };
@@ -28,8 +32,26 @@ enum { DRAW_PIXEL_X, DRAW_PIXEL_Y, DRAW_HERO, DRAW_GROUP };
 FN void see(const struct tables *tab, struct path *p, int j, float k, const float *rgb)
 {
 	GLOBAL const float *c = tab->colour + 3 * wave_of(p->waves, j);
+	float seen = p->weight[j] * k;
 	for (int i = 0; i < 3; i++)
-		p->rgb[i] += c[i] * (p->weight[j] * k * rgb[i]);
+		p->rgb[i] += c[i] * (seen * rgb[i]);
+	p->spectrum[j] += seen * rgb[1];
+}
+
+/* The medium scatters the path: what it sees from here on belongs to the next order. */
+FN void scattered(struct path *p, struct vec point)
+{
+	if (p->chance == 0.f) {    /* the camera's ray */
+		struct vec d = sub(point, p->ray.from);
+		p->depth = root(dot3(d, d));
+	}
+	if (p->order == 2)
+		return;
+	for (int i = 0; i < 3; i++) {
+		p->before[p->order][i] = p->rgb[i];
+		p->rgb[i] = 0.f;
+	}
+	p->order++;
 }
 
 /* Take event[j] into the densities; returns its mean over the wavelengths, 0 if the path cannot be (it then ends). */
@@ -66,9 +88,13 @@ FN struct path path_begin(const struct scene *s, uint32 pixel, uint32 sample)
 	for (int j = 0; j < MAX_WAVES; j++) {
 		p.weight[j] = (float)s->n_groups;
 		p.density[j] = 1.f;
+		p.spectrum[j] = 0.f;
 	}
 	p.chance = 0.f;
-	p.rgb[0] = p.rgb[1] = p.rgb[2] = 0.f;
+	p.depth = -1.f;
+	p.order = 0;
+	for (int i = 0; i < 3; i++)
+		p.rgb[i] = p.before[0][i] = p.before[1][i] = 0.f;
 	next_vertex(&p.random);
 	return p;
 }
@@ -154,6 +180,8 @@ FN int path_bounce(const struct scene *s, const struct tables *tab, struct path 
 	if (class == NONE) {
 		point = add(p->ray.from, scale(p->ray.along, t_end));
 		point.y = s->ground_height;
+	} else {
+		scattered(p, point);
 	}
 	for (int j = 0; j < p->waves.n; j++)
 		p->weight[j] *= class == NONE ? s->ground_albedo : tab->albedo[class * s->n_waves + wave_of(p->waves, j)];

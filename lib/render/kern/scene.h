@@ -48,6 +48,9 @@ struct scene {
 	int map_width, map_height;
 	float map_angle;           /* solid angle of a texel / sin of the polar angle of its centre, sr */
 	struct light light[MAX_LIGHTS];
+	int film_sums;             /* of a pixel: FILM_SUMS, and one a wavelength if spectral */
+	int spectral;
+	float depth_scale;         /* a power of 2: depths times this are below 1 */
 };
 
 struct tables {
