@@ -136,7 +136,7 @@ int main(void)
 			x[0] = 0.99999994f;
 		if (i % 4 == 2)    /* a direction that grazes */
 			x[3] *= 1e-6f;
-		struct ray r = { vec3(x[0], x[1], x[2]), unit3(vec3(x[3], x[4], x[5])), NONE };
+		struct ray r = { vec3(x[0], x[1], x[2]), unit3(vec3(x[3], x[4], x[5])), NONE, 0 };
 		int which;
 		float far = surface_distance(&s, r, &which);
 		leaks += which == NONE;
