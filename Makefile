@@ -8,6 +8,7 @@ LDFLAGS =
 B = build
 PACKAGES = gcc libc6-dev make pkg-config libopenexr-dev libimath-dev libpng-dev zlib1g-dev libconfig-dev \
 	ocl-icd-opencl-dev opencl-headers pocl-opencl-icd oclgrind mandoc openimageio-tools perl git
+BENCH_PACKAGES = gnuplot-nox
 
 OWN_CFLAGS = -std=c11 -D_GNU_SOURCE -DMOTES_VERSION='"$(VERSION)"' -DCL_TARGET_OPENCL_VERSION=120 -Ilib -ffp-contract=off -fno-math-errno \
 	-fopenmp -Wall -Wextra -Wshadow -Wmissing-prototypes
@@ -55,15 +56,15 @@ $(B)/gen/kernels.c: lib/render/embed.awk lib/render/kern/sources $(wildcard lib/
 	@mkdir -p $(@D)
 	awk -f $< $$(sed 's,^,lib/render/kern/,' lib/render/kern/sources) >$@.new && mv $@.new $@
 
-# Everything that building, the demo and the tests need, from Debian's own packages.
+# Everything that building, the demo, the tests and the benchmarks need, from Debian's own packages.
 deps:
-	@missing=$$(dpkg-query -W -f '$${db:Status-Status} $${Package}\n' $(PACKAGES) 2>&1 | grep -v '^installed '); \
+	@missing=$$(dpkg-query -W -f '$${db:Status-Status} $${Package}\n' $(PACKAGES) $(BENCH_PACKAGES) 2>&1 | grep -v '^installed '); \
 	[ -n "$$missing" ] || exit 0; \
-	if ! command -v apt-get >/dev/null; then echo 'make deps: no apt-get here; install by hand: $(PACKAGES)' >&2; exit 1; fi; \
+	if ! command -v apt-get >/dev/null; then echo 'make deps: no apt-get here; install by hand: $(PACKAGES) $(BENCH_PACKAGES)' >&2; exit 1; fi; \
 	if [ "$$(id -u)" = 0 ]; then as=; elif command -v sudo >/dev/null; then as='sudo'; \
-	else echo 'make deps: needs root or sudo; install by hand: $(PACKAGES)' >&2; exit 1; fi; \
+	else echo 'make deps: needs root or sudo; install by hand: $(PACKAGES) $(BENCH_PACKAGES)' >&2; exit 1; fi; \
 	apt='apt-get -q -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3'; \
-	$$as $$apt update && $$as env DEBIAN_FRONTEND=noninteractive $$apt install -y --no-install-recommends $(PACKAGES)
+	$$as $$apt update && $$as env DEBIAN_FRONTEND=noninteractive $$apt install -y --no-install-recommends $(PACKAGES) $(BENCH_PACKAGES)
 
 check: programs $(CHECKS:%=$(B)/tests/%)
 	MOTES_BUILD=$(B) sh tests/run
@@ -74,8 +75,9 @@ demo: programs
 	@mkdir -p $(B)/demo
 	PATH="$(CURDIR)/$(B)/bin:$$PATH" $(MAKE) -C data/scenes/mist OUT="$(CURDIR)/$(B)/demo"
 
-bench: programs
-	PATH="$(CURDIR)/$(B)/bin:$$PATH" sh tests/bench/run $(B)/bench
+# Charts of error against time, in $(B)/bench.
+bench: programs $(CHECKS:%=$(B)/tests/%)
+	PATH="$(CURDIR)/$(B)/bin:$$PATH" MOTES_TESTS="$(CURDIR)/$(B)/tests" sh tests/bench/run $(B)/bench
 
 install: programs
 	install -d $(DESTDIR)$(PREFIX)/bin

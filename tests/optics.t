@@ -2,7 +2,7 @@
 # The Lorenz-Mie tools: sizes in, coefficients streamed between them, bad input refused.
 # shellcheck source=tests/lib.sh
 . "$(dirname "$0")/lib.sh"
-plan 61
+plan 65
 cd "$tmp" || exit 2
 
 # Ten digits: what another libm or compiler changes lies far below.
@@ -113,6 +113,11 @@ for tool in xsect mie-phase mie-coeffs; do
 done
 refused 'a table and --radius' 'two.tab: a table of sizes excludes --radius' xsect --particle 1.33 --wavelength 550nm --radius 1um two.tab
 refused 'two tables' 'one table at most' xsect --particle 1.33 --wavelength 550nm two.tab two.tab
+refused 'a wavelength twice' '--wavelength: 0.55 um stands twice' xsect --particle 1.33 --wavelength 550nm,450nm,0.55um --radius 1um
+xsect --particle 1.33 --wavelength 650nm,450nm,550nm two.tab | tabtxt --columns wavelength,radius >out
+is '0.65 0.3,0.45 0.3,0.55 0.3,0.65 1,0.45 1,0.55 1' "$(sed 1d out | tr '\t\n' ' ,' | sed 's/,$//')" 'wavelengths come in the order given'
+refused 'a radius beyond numbers' "'1e400um' is too large" xsect --particle 1.33 --wavelength 550nm --radius 1e400um
+refused 'a radius that is none' "'nanum' is not a length" xsect --particle 1.33 --wavelength 550nm --radius nanum
 refused 'x and wavelength' 'excludes --wavelength' xsect --particle 1.33 --wavelength 550nm --size-parameter 1
 refused 'the other sign convention' '--particle: .*positive one absorbs' xsect --particle 1.5-0.1i --size-parameter 1
 refused 'an absorbing host' '--host: .*absorbs' xsect --particle 1.5 --host 1.3+0.01i --size-parameter 1

@@ -1,6 +1,7 @@
 #!/bin/sh
 # particles: numbers, places, sizes, density grids, and what is refused.
 # Seeds are fixed; with others a statistical test would fail by chance less than once in 1e5.
+# shellcheck source=tests/lib.sh
 . "$(dirname "$0")/lib.sh"
 plan 58
 
@@ -13,6 +14,7 @@ npy() {
 	header="{'descr': '$1', 'fortran_order': ${3:-False}, 'shape': ($2), }"
 	length=$(( (${#header} + 1 + 10 + 63) / 64 * 64 - 10 ))
 	printf '\223NUMPY\001\000'
+	# shellcheck disable=SC2059
 	printf "\\$(printf %o $((length & 255)))\\$(printf %o $((length >> 8)))"
 	printf "%-$((length - 1))s\n" "$header"
 }
@@ -97,7 +99,7 @@ refused 'no particle' '^particles: --count: .* out of range' p --count 0 --spher
 refused 'too many' '^particles: --concentration: makes more than 1e\+12' p --concentration 1e12/cm3 --sphere 1m
 refused 'an operand' '^particles: w.tab: no operands' particles w.tab
 refused 'a table that is not there' '^particles: none.tab: ' particles --psd none.tab --count 1 --sphere 1m
-tab() { printf "$1" | txttab >t.tab; }
+tab() { printf '%b' "$1" | txttab >t.tab; }
 refuse_tab() { tab "$3"; refused "$1" "$2" particles --psd t.tab --count 1 --sphere 1m; }
 refuse_tab 'no radius' 'particles: t.tab: .*radius' '# weight:f64:1\n1\n'
 refuse_tab 'no weight' 'particles: t.tab: .*weight' '# radius:f64:um\n1\n'

@@ -1,5 +1,6 @@
 #!/bin/sh
 # psd: the table it writes, and what it refuses. The classes themselves are checked by psd_moments.c.
+# shellcheck source=tests/lib.sh
 . "$(dirname "$0")/lib.sh"
 plan 35
 

@@ -2,14 +2,58 @@
 #include "base/die.h"
 #include "base/opt.h"
 #include "base/tab.h"
+#include "medium/density.h"
 #include "medium/grid.h"
 #include "medium/optics.h"
+#include "medium/voxels.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* The relative density and its integral over the medium; resampled to so many voxels along the longest side, if asked to. */
+static void from_density(const char *path, int longest, struct medium *m)
+{
+	enum { PARTS = 4 };        /* along an axis of a voxel, for averages */
+	struct npy_grid g = { 1, 1, 1, &(float){ 1 } };
+	if (path)
+		g = npy_density(path);
+	double side = 2 * fmax(m->half[0], fmax(m->half[1], m->half[2])) / longest, sum = 0, all = 0;
+	size_t n[3] = { g.nx, g.ny, g.nz };
+	for (int a = 0; a < 3; a++) {
+		if (longest)
+			n[a] = (size_t)fmax(1, round(2 * m->half[a] / side));
+		if (n[a] > VOXELS_SIDE)
+			die(path ? path : "--voxels", "more than %d voxels along a side", VOXELS_SIDE);
+		m->voxels[a] = (int32_t)n[a];
+	}
+	m->n_density = n[0] * n[1] * n[2];
+	m->density = xalloc(m->n_density, sizeof *m->density);
+	for (size_t i = 0; i < m->n_density; i++) {
+		size_t at[3] = { i % n[0], i / n[0] % n[1], i / n[0] / n[1] };
+		double mean = 0;
+		for (int k = 0; k < PARTS * PARTS * PARTS; k++) {
+			int part[3] = { k % PARTS, k / PARTS % PARTS, k / PARTS / PARTS };
+			double u[3], r2 = 0;
+			for (int a = 0; a < 3; a++) {
+				u[a] = ((double)at[a] + (part[a] + 0.5) / PARTS) / (double)n[a];
+				r2 += pow(2 * u[a] - 1, 2);
+			}
+			double here = density_at(&g, u[0], u[1], u[2]);
+			mean += here / (PARTS * PARTS * PARTS);
+			all++;
+			sum += m->round && r2 > 1 ? 0 : here;
+		}
+		m->density[i] = longest ? (float)mean : g.v[i];
+	}
+	m->matter = 8 * m->half[0] * m->half[1] * m->half[2] * sum / all;
+	if (!path)
+		m->matter = medium_volume(m);
+	if (path)
+		free(g.v);
+}
 
 /* The size distribution's classes give the expected counts. */
 static char *from_psd(const char *path, double concentration, struct medium *m)
@@ -30,7 +74,7 @@ static char *from_psd(const char *path, double concentration, struct medium *m)
 	if (!(fabs(sum - 1) <= 1e-6))
 		die(tab_path(t), "the weights sum to %g, not to 1", sum);
 	for (int k = 0; k < m->n_classes; k++)
-		m->count[k] *= concentration * medium_volume(m) / sum;
+		m->count[k] *= concentration * m->matter / sum;
 	char *history = xtext("%s", tab_history(t));
 	tab_close(t);
 	return history;
@@ -57,7 +101,7 @@ static char *from_particles(const char *path, int bounded, struct medium *m)
 			die(tab_path(t), "row %llu: radius %g um fits none of the %d classes of --xsect", number, row[radius], m->n_classes);
 		for (int a = 0; a < 3; a++) {
 			if (!(fabs(q[a]) < 1e9))
-				die(tab_path(t), "row %llu: a position is not a finite length", number);
+				die(tab_path(t), "row %llu: a position is not within 1e9 m", number);
 			low[a] = fmin(low[a], q[a]);
 			high[a] = fmax(high[a], q[a]);
 		}
@@ -78,9 +122,9 @@ static char *from_particles(const char *path, int bounded, struct medium *m)
 	if (!m->n_particles)
 		die(tab_path(t), "has no rows");
 	/* Without a box: the bounding box of the centres about the origin, widened by what n uniform centres leave free on the
-	 * average. */
+	 * average, and no less than a particle. */
 	for (int a = 0; a < 3 && !bounded; a++)
-		m->half[a] = fmax(fabs(low[a]), fabs(high[a])) * (1 + 1.0 / (double)m->n_particles) + 1e-9 * m->radius[m->n_classes - 1];
+		m->half[a] = fmax(fmax(fabs(low[a]), fabs(high[a])) * (1 + 1.0 / (double)m->n_particles), 1e-6 * m->radius[m->n_classes - 1]);
 	char *history = xtext("%s", tab_history(t));
 	tab_close(t);
 	return history;
@@ -88,7 +132,8 @@ static char *from_particles(const char *path, int bounded, struct medium *m)
 
 int main(int argc, char **argv)
 {
-	const char *xsect = NULL, *phase = NULL, *psd = NULL, *output = NULL;
+	const char *xsect = NULL, *phase = NULL, *psd = NULL, *density = NULL, *output = NULL;
+	long long voxels = 0;
 	double concentration = NAN, sphere = NAN, box[3] = { NAN, NAN, NAN };
 	const struct opt opts[] = {
 		{ "--xsect", OPT_FILE, &xsect, 0, 0, "FILE", "cross sections by class and wavelength, from xsect", 0 },
@@ -97,6 +142,8 @@ int main(int argc, char **argv)
 		{ "--concentration", OPT_PER_M3, &concentration, 0, DBL_MAX, "N/m3", "its particles a volume", 0 },
 		{ "--box", OPT_BOX, box, 1e-9, 1e6, "X,Y,Z", "the medium fills a box", 0 },
 		{ "--sphere", OPT_M, &sphere, 1e-9, 1e6, "R", "the medium fills a sphere", 0 },
+		{ "--density", OPT_FILE, &density, 0, 0, "GRID.npy", "relative density in the box, [z][y][x], with --psd", 0 },
+		{ "--voxels", OPT_INT, &voxels, 1, VOXELS_SIDE, "N", "voxels along the longest side", 0 },
 		{ "-o", OPT_FILE, &output, 0, 0, "FILE", "the medium file", 1 },
 		OPT_END
 	};
@@ -117,16 +164,22 @@ int main(int argc, char **argv)
 		die("--box", "or --sphere is needed with --psd");
 	if (!psd && !isnan(concentration))
 		die("--concentration", "needs --psd");
+	if (!psd && density)
+		die("--density", "needs --psd; particles have their own");
 	m.round = !isnan(sphere);
 	for (int a = 0; a < 3 && bounded; a++)
 		m.half[a] = m.round ? sphere : box[a] / 2;
 
+	if (psd)
+		from_density(density, (int)voxels, &m);
 	char *history = optics_cross_sections(xsect, &m);
 	char *matter = psd ? from_psd(psd, concentration, &m) : from_particles(args.n ? args.operand[0] : NULL, bounded, &m);
 	char *phases = optics_phase(phase, &m);
 	m.history = tab_join(history, phases, matter, args.history, NULL);
-	if (m.n_particles)
+	if (m.n_particles) {
 		grid_build(&m);
+		voxels_count(&m, (int)voxels);
+	}
 	medium_write(output, &m);
 	return 0;
 }

@@ -1,6 +1,7 @@
 /* vrender - render a scene: a medium under its lights, by path tracing. */
 #include "base/die.h"
 #include "base/opt.h"
+#include "base/out.h"
 #include "base/tab.h"
 #include "render/image.h"
 #include "render/job.h"
@@ -54,13 +55,14 @@ int main(int argc, char **argv)
 {
 	const char *output = NULL, *part = NULL;
 	long long samples = 0, from = 0, to = 0, seed = 1, threads = sysconf(_SC_NPROCESSORS_ONLN), device = 0;
-	int transport = -1, backend = 0, list = 0, verbose = 0, spectral = 0;
+	int transport = -1, attenuation = 0, backend = 0, list = 0, verbose = 0, spectral = 0;
 	const struct opt opts[] = {
 		{ "-o", OPT_FILE, &output, 0, 0, "FILE.exr", "the image", 1 },
 		{ "--samples", OPT_INT, &samples, 1, IMAGE_SAMPLES, "N", "paths a pixel; default: 64", 1 },
 		{ "--sample-range", OPT_TEXT, &part, 0, 0, "A:B", "render samples A to B - 1 only, for exr-merge", 1 },
 		{ "--seed", OPT_INT, &seed, 0, 4294967295.0, "S", "of the random numbers", 0 },
-		{ "--transport", OPT_CHOICE, &transport, 0, 0, "explicit|continuous", "model of the medium; default: explicit for particles", 0 },
+		{ "--transport", OPT_CHOICE, &transport, 0, 0, "explicit|fat-ray|grid|continuous", "model of the medium; default: explicit for particles", 0 },
+		{ "--attenuation", OPT_CHOICE, &attenuation, 0, 0, "product|exponential", "of fat rays; exponential is biased", 0 },
 		{ "--spectral", OPT_FLAG, &spectral, 0, 0, NULL, "add a layer for every wavelength", 0 },
 		{ "--backend", OPT_CHOICE, &backend, 0, 0, "c|opencl", "what runs the kernels", 1 },
 		{ "--device", OPT_INT, &device, 0, 63, "I", "OpenCL device", 1 },
@@ -72,8 +74,10 @@ int main(int argc, char **argv)
 	const struct opt_tool tool = { "[OPTION].. [SCENE] -o FILE.exr", "Render a scene.", opts, 0 };
 	struct opt_line args = opt_parse(&tool, argc, argv);
 	if (list) {
-		cl_list();
-		return fflush(stdout) ? 2 : 0;
+		struct out out = out_open(NULL, 0);
+		cl_list(out.f);
+		out_close(&out);
+		return 0;
 	}
 	if (args.n > 1)
 		die(args.operand[1], "one scene at most");
@@ -94,15 +98,15 @@ int main(int argc, char **argv)
 	medium_open(file.medium, &medium);
 	if (transport < 0)
 		transport = medium.n_particles ? TRANSPORT_EXPLICIT : TRANSPORT_CONTINUOUS;
-	else if (transport == TRANSPORT_EXPLICIT && !medium.n_particles)
-		die(file.medium, "has no particles for --transport explicit; bake it from particles, or render it as continuous");
+	else if ((transport == TRANSPORT_EXPLICIT || transport == TRANSPORT_FAT_RAY) && !medium.n_particles)
+		die(file.medium, "has no particles, which explicit and fat-ray need; bake it from particles, or render it as grid or continuous");
 	if (spectral && medium.n_waves > IMAGE_WAVES)
 		die("--spectral", "the medium has %d wavelengths; an image has room for %d", medium.n_waves, IMAGE_WAVES);
-	job_make(&job, &file, &medium, transport, (uint32)seed);
+	job_make(&job, &file, &medium, transport, attenuation, (uint32)seed);
 	job_film(&job, spectral);
 	if (verbose)
 		warn(file.medium, "%s: %zu particles, %d classes, %d wavelengths, optical depth %.4g along the shortest axis",
-		     transport == TRANSPORT_EXPLICIT ? "explicit" : "continuous", medium.n_particles, medium.n_classes, medium.n_waves,
+		     (const char *[]){ "explicit", "fat-ray", "grid", "continuous" }[transport], medium.n_particles, medium.n_classes, medium.n_waves,
 		     job.tables.extinction[0] * 2 * fmin(medium.half[0], fmin(medium.half[1], medium.half[2])));
 
 	struct cl *cl = backend ? cl_start(&job, (int)device) : NULL;

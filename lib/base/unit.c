@@ -56,7 +56,7 @@ static const char *length_parts(const char *text, double *value, int *exponent)
 	char *rest;
 	const char *bad = number(text, value, &rest);
 	if (bad)
-		return "is not a length (write it like 10um or 550nm)";
+		return strstr(bad, "large") ? bad : "is not a length (write it like 10um or 550nm)";
 	for (size_t i = 0; i < sizeof units / sizeof *units; i++)
 		if (!strcmp(rest, units[i].name)) {
 			*exponent = units[i].exponent;

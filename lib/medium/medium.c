@@ -2,6 +2,7 @@
 
 #include "base/die.h"
 #include "base/out.h"
+#include "medium/voxels.h"
 
 #include <fcntl.h>
 #include <math.h>
@@ -29,7 +30,7 @@ struct section {
 static const struct section sections[] = {
 	SECTION(wavelength, double), SECTION(radius, double), SECTION(count, double), SECTION(c_ext, double),
 	SECTION(c_sca, double), SECTION(node, int32_t), SECTION(theta, float), SECTION(p, float), SECTION(cdf, uint32_t),
-	SECTION(particle, float), SECTION(first, uint32_t), SECTION(reference, uint32_t),
+	SECTION(particle, float), SECTION(first, uint32_t), SECTION(voxel_count, uint32_t), SECTION(density, float),
 };
 #define N_SECTIONS ((int)(sizeof sections / sizeof *sections))
 
@@ -75,7 +76,7 @@ static void counts_of(const struct medium *m, uint64_t *n)
 {
 	uint64_t waves = (uint64_t)m->n_waves, classes = (uint64_t)m->n_classes;
 	const uint64_t counts[] = { waves, classes, classes, classes * waves, classes * waves, 2 * (classes + 1), m->n_nodes,
-		m->n_nodes * waves, m->n_nodes * waves, 4 * m->n_particles, m->n_first, m->n_references };
+		m->n_nodes * waves, m->n_nodes * waves, 4 * m->n_particles, m->n_first, m->n_voxel_count, m->n_density };
 	memcpy(n, counts, sizeof counts);
 }
 
@@ -92,9 +93,11 @@ void medium_write(const char *path, const struct medium *m)
 		emit(&s, line, strlen(line));
 		emit(&s, "\n", 1);
 	}
-	char *text = xtext("shape\t%s\t%.17g\t%.17g\t%.17g\ngrid\t%d\t%d\t%d\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\n",
+	char *text = xtext("shape\t%s\t%.17g\t%.17g\t%.17g\ngrid\t%d\t%d\t%d\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\n"
+	                   "voxels\t%d\t%d\t%d\t%.17g\t%.17g\n",
 	                   m->round ? "sphere" : "box", m->half[0], m->half[1], m->half[2], m->cells[0], m->cells[1], m->cells[2],
-	                   m->low[0], m->low[1], m->low[2], m->cell[0], m->cell[1], m->cell[2]);
+	                   m->low[0], m->low[1], m->low[2], m->cell[0], m->cell[1], m->cell[2], m->voxels[0], m->voxels[1],
+	                   m->voxels[2], m->voxel, m->matter);
 	emit(&s, text, strlen(text));
 	free(text);
 	free(history);
@@ -195,6 +198,22 @@ static void grid(const char *path, struct medium *m, char *line)
 	}
 }
 
+static void voxels(const char *path, struct medium *m, char *line)
+{
+	char *f[6];
+	if (fields(line, f, 6) != 6)
+		damaged(path, "bad voxels line");
+	for (int a = 0; a < 3; a++) {
+		m->voxels[a] = (int32_t)strtol(f[1 + a], NULL, 10);
+		if (m->voxels[a] < 1 || m->voxels[a] > VOXELS_SIDE)
+			damaged(path, "bad voxels line");
+	}
+	m->voxel = strtod(f[4], NULL);
+	m->matter = strtod(f[5], NULL);
+	if (!(m->voxel >= 0 && m->voxel < 1e9) || !(m->matter >= 0 && m->matter < 1e30))
+		damaged(path, "bad voxels line");
+}
+
 static void header(const char *path, struct medium *m, uint64_t *n)
 {
 	size_t most = m->map_size < HEADER_MAX ? m->map_size : HEADER_MAX, at = strlen(MAGIC);
@@ -223,6 +242,9 @@ static void header(const char *path, struct medium *m, uint64_t *n)
 		} else if (!strncmp(line, "grid\t", 5)) {
 			grid(path, m, line);
 			lines |= 2;
+		} else if (!strncmp(line, "voxels\t", 7)) {
+			voxels(path, m, line);
+			lines |= 4;
 		} else {
 			char *f[3];
 			if (fields(line, f, 3) != 3 || strcmp(f[0], "section") || section == N_SECTIONS || strcmp(f[1], sections[section].name))
@@ -231,7 +253,7 @@ static void header(const char *path, struct medium *m, uint64_t *n)
 		}
 		free(line);
 	}
-	if (section != N_SECTIONS || lines != 3)
+	if (section != N_SECTIONS || lines != 7)
 		damaged(path, "header not complete");
 	for (int i = 0; i < N_SECTIONS; i++) {
 		at = (at + ALIGN - 1) / ALIGN * ALIGN;
@@ -252,7 +274,8 @@ static void counts_in(const char *path, struct medium *m, const uint64_t *n)
 	m->n_nodes = (size_t)n[6];
 	m->n_particles = (size_t)n[9] / 4;
 	m->n_first = (size_t)n[10];
-	m->n_references = (size_t)n[11];
+	m->n_voxel_count = (size_t)n[10 + 1];
+	m->n_density = (size_t)n[12];
 	counts_of(m, want);
 	if (memcmp(want, n, sizeof want))
 		damaged(path, "sections do not agree");
@@ -285,12 +308,12 @@ static void check_optics(const char *path, const struct medium *m)
 static void check_particles(const char *path, const struct medium *m)
 {
 	if (!m->n_particles) {
-		if (m->n_first || m->n_references)
+		if (m->n_first || m->n_voxel_count)
 			damaged(path, "a grid without particles");
 		return;
 	}
 	if ((double)m->cells[0] * m->cells[1] * m->cells[2] + 1 != (double)m->n_first || m->first[0]
-	    || m->first[m->n_first - 1] != m->n_references)
+	    || m->first[m->n_first - 1] != m->n_particles)
 		damaged(path, "grid does not agree with its cells");
 	for (int a = 0; a < 3; a++)
 		if (!(m->cell[a] > 0))
@@ -298,16 +321,30 @@ static void check_particles(const char *path, const struct medium *m)
 	for (size_t c = 1; c < m->n_first; c++)
 		if (m->first[c] < m->first[c - 1])
 			damaged(path, "grid out of order");
-	for (size_t i = 0; i < m->n_references; i++)
-		if (m->reference[i] >= m->n_particles)
-			damaged(path, "grid refers to no particle");
 	for (size_t i = 0; i < m->n_particles; i++) {
 		int32_t class;
 		const float *q = m->particle + 4 * i;
 		memcpy(&class, &q[3], 4);
-		if (class < 0 || class >= m->n_classes || !isfinite(q[0]) || !isfinite(q[1]) || !isfinite(q[2]))
+		if (class < 0 || class >= m->n_classes || !(fabsf(q[0]) < 1e9f) || !(fabsf(q[1]) < 1e9f) || !(fabsf(q[2]) < 1e9f))
 			damaged(path, "a particle out of range");
 	}
+}
+
+static void check_voxels(const char *path, const struct medium *m)
+{
+	if (m->n_particles) {
+		if (m->n_density || !(m->voxel > 0) || voxels_size(m->voxels) * (size_t)m->n_classes != m->n_voxel_count)
+			damaged(path, "voxels do not agree with their number");
+		for (int a = 0; a < 3; a++)
+			if (!(m->voxel * (m->voxels[a] - 1) < 2 * m->half[a]))
+				damaged(path, "voxels larger than the medium");
+		return;
+	}
+	if ((double)m->voxels[0] * m->voxels[1] * m->voxels[2] != (double)m->n_density)
+		damaged(path, "density does not agree with its voxels");
+	for (size_t i = 0; i < m->n_density; i++)
+		if (!(m->density[i] >= 0 && m->density[i] < 1e30f))
+			damaged(path, "density out of range");
 }
 
 void medium_open(const char *path, struct medium *m)
@@ -329,6 +366,7 @@ void medium_open(const char *path, struct medium *m)
 	counts_in(path, m, n);
 	check_optics(path, m);
 	check_particles(path, m);
+	check_voxels(path, m);
 }
 
 void medium_close(struct medium *m)

@@ -24,11 +24,17 @@ struct medium {
 	uint32_t *cdf;                  /* [node][wave], see phase_cdf */
 	size_t n_particles;             /* 0: a medium without particles; the rest is then empty */
 	float *particle;                /* [particle][4] x y z m, the bits of an int32 class; in the order of the cells */
-	int32_t cells[3];
+	int32_t cells[3];               /* the grid over the centres */
 	float low[3], cell[3];          /* m */
-	size_t n_first, n_references;
-	uint32_t *first;                /* [cell] + 1 */
-	uint32_t *reference;
+	size_t n_first;
+	uint32_t *first;                /* [cell] its first particle, and one more at the end */
+	int32_t voxels[3];              /* of the finest level of cubes that count particles, or the nodes of the density */
+	double voxel;                   /* m, side of these cubes */
+	size_t n_voxel_count;
+	uint32_t *voxel_count;          /* [level][voxel][class], finest level first; see voxels.h */
+	size_t n_density;
+	float *density;                 /* [z][y][x] relative density of a medium without particles, see density.h */
+	double matter;                  /* m^3, integral of the density over the medium */
 	void *map;                      /* of an open file */
 	size_t map_size;
 };

@@ -77,6 +77,24 @@ static void indices(struct sizes *s, const struct sizes_options *o)
 	}
 }
 
+static int ascending(const void *a, const void *b)
+{
+	double x = *(const double *)a, y = *(const double *)b;
+	return (x > y) - (x < y);
+}
+
+/* Tables are looked up by wavelength, and match within 1e-9: a second of the same could not be told from the first. */
+static void wavelengths_differ(const struct reals *w)
+{
+	struct reals sorted = { xalloc(w->n + 1, sizeof(double)), w->n };
+	memcpy(sorted.v, w->v, w->n * sizeof(double));
+	qsort(sorted.v, sorted.n, sizeof(double), ascending);
+	for (size_t i = 1; i < sorted.n; i++)
+		if (sorted.v[i] - sorted.v[i - 1] <= 1e-9 * sorted.v[i])
+			die("--wavelength", "%g um stands twice", sorted.v[i]);
+	free(sorted.v);
+}
+
 void sizes_require(const struct sizes_options *o)
 {
 	if (o->radius.n && o->x.n)
@@ -87,6 +105,7 @@ void sizes_require(const struct sizes_options *o)
 		die("--size-parameter", "excludes --wavelength");
 	if (!o->x.n && !o->wavelength.n)
 		die("--wavelength", "is missing (write it like 550nm), or give --size-parameter");
+	wavelengths_differ(&o->wavelength);
 }
 
 void sizes_threads(const struct sizes_options *o)

@@ -7,9 +7,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define DEVICES_MAX 64
-#define N_BUFFERS 13       /* the scene and the tables */
+#define N_BUFFERS 15       /* the scene and the tables */
 
 struct cl {
 	struct job *job;
@@ -30,9 +31,21 @@ static void check(cl_int error, const char *what)
 		die("OpenCL", "%s failed (error %d)", what, error);
 }
 
+/* PoCL aborts the process where it cannot read the machine's memory from /sys, as in a plain chroot: tell it there. */
+static void describe_machine(void)
+{
+	char text[96];
+	if (!access("/sys/devices/system/cpu", F_OK))
+		return;
+	snprintf(text, sizeof text, "numa:1(memory=%lld) pu:%ld", (long long)sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE),
+	         sysconf(_SC_NPROCESSORS_ONLN));
+	setenv("HWLOC_SYNTHETIC", text, 0);
+}
+
 /* All devices of all platforms, in the order that the loader gives. */
 static cl_uint devices(cl_device_id *out)
 {
+	describe_machine();
 	cl_platform_id platform[16];
 	cl_uint n_platforms = 0, n = 0;
 	cl_int error = clGetPlatformIDs(16, platform, &n_platforms);
@@ -48,14 +61,14 @@ static cl_uint devices(cl_device_id *out)
 	return n;
 }
 
-void cl_list(void)
+void cl_list(FILE *out)
 {
 	cl_device_id device[DEVICES_MAX];
 	char name[256];
 	cl_uint n = devices(device);
 	for (cl_uint i = 0; i < n; i++) {
 		check(clGetDeviceInfo(device[i], CL_DEVICE_NAME, sizeof name, name, NULL), "asking for a device's name");
-		printf("%u\t%s\n", i, name);
+		fprintf(out, "%u\t%s\n", i, name);
 	}
 }
 
@@ -112,9 +125,11 @@ struct cl *cl_start(struct job *j, int device)
 	const struct tables *t = &j->tables;
 	const struct { const void *p; size_t size; } table[N_BUFFERS] = {
 		{ &j->scene, sizeof j->scene }, { t->extinction, j->n_extinction * 4 }, { t->disc, j->n_disc * 4 },
-		{ t->disc_most, j->n_disc_most * 4 }, { t->albedo, j->n_albedo * 4 }, { t->colour, j->n_colour * 4 },
+		{ t->albedo, j->n_albedo * 4 }, { t->colour, j->n_colour * 4 },
 		{ t->node, j->n_node * 4 }, { t->theta, j->n_theta * 4 }, { t->p, j->n_p * 4 }, { t->cdf, j->n_cdf * 4 },
-		{ t->particle, j->n_particle * 4 }, { t->first, j->n_first * 4 }, { t->reference, j->n_reference * 4 },
+		{ t->particle, j->n_particle * 4 }, { t->first, j->n_first * 4 }, { t->voxel, j->n_voxel * 4 },
+		{ t->count, j->n_count * 4 },
+		{ t->map, j->n_map * 4 }, { t->map_cdf, j->n_map_cdf * 4 },
 	};
 	cl_uint arg = 0;
 	for (; arg < N_BUFFERS; arg++) {

@@ -37,29 +37,90 @@ static void camera(struct scene *s, const struct scenefile *f)
 		s->right[i] = (float)(right[i] * half * f->width / longer);
 		s->up[i] = (float)(up[i] * half * f->height / longer);
 	}
+	s->footprint = (float)pow(2 * half / longer, 2);
 	s->width = f->width;
 	s->height = f->height;
 }
 
-static void lights(struct scene *s, const struct scenefile *f)
+static void to_floats(const double *from, float *to)
 {
-	s->environment = (float)f->environment;
-	for (int i = 0; i < f->n_suns; i++) {
-		struct light *l = &s->light[s->n_lights];
-		double towards[3], half = f->sun[i].angle * M_PI / 360, cap = 2 * pow(sin(half / 2), 2);
-		if (!(f->sun[i].irradiance > 0))
-			continue;
-		for (int k = 0; k < 3; k++)
-			towards[k] = -f->sun[i].direction[k];
-		unit(towards);
-		for (int k = 0; k < 3; k++)
-			l->towards[k] = (float)towards[k];
-		l->cap = (float)cap;
-		l->density = cap > 0 ? (float)(1 / (2 * M_PI * cap)) : 0;
+	for (int i = 0; i < 3; i++)
+		to[i] = (float)from[i];
+}
+
+static int shines(const float *rgb) { return rgb[0] > 0 || rgb[1] > 0 || rgb[2] > 0; }
+
+static struct light sun_light(const struct sun *sun)
+{
+	struct light l = { .kind = LIGHT_SUN };
+	double towards[3], half = sun->angle * M_PI / 360, cap = 2 * pow(sin(half / 2), 2);
+	for (int k = 0; k < 3; k++) {
+		towards[k] = -sun->direction[k];
 		/* the irradiance of a disc of radiance L, perpendicular to its axis, is pi L sin^2 */
-		l->strength = (float)(cap > 0 ? f->sun[i].irradiance / (M_PI * pow(sin(half), 2)) : f->sun[i].irradiance);
-		s->n_lights++;
+		l.rgb[k] = (float)(cap > 0 ? sun->irradiance[k] / (M_PI * pow(sin(half), 2)) : sun->irradiance[k]);
 	}
+	unit(towards);
+	to_floats(towards, l.at);
+	l.cap = (float)cap;
+	l.density = cap > 0 ? (float)(1 / (2 * M_PI * cap)) : 0;
+	return l;
+}
+
+static struct light quad_light(const struct quad *quad, const double *origin)
+{
+	struct light l = { .kind = LIGHT_QUAD };
+	double normal[3], across[3], area = 0;
+	cross(quad->edge[0], quad->edge[1], normal);
+	for (int k = 0; k < 3; k++)
+		area += normal[k] * normal[k];
+	area = sqrt(area);
+	unit(normal);
+	for (int i = 0; i < 2; i++) {
+		/* in the plane, perpendicular to the other edge; its product with its own edge is the area */
+		cross(i ? normal : quad->edge[1], i ? quad->edge[0] : normal, across);
+		for (int k = 0; k < 3; k++)
+			l.dual[i][k] = (float)(across[k] / area);
+		to_floats(quad->edge[i], l.edge[i]);
+	}
+	for (int k = 0; k < 3; k++)
+		l.at[k] = (float)(quad->corner[k] - origin[k]);
+	to_floats(normal, l.normal);
+	to_floats(quad->radiance, l.rgb);
+	l.density = (float)(1 / area);
+	return l;
+}
+
+/* Those that are drawn come first: what is left are quads that only stand in the way. */
+static void lights(struct job *j, const struct scenefile *f)
+{
+	struct scene *s = &j->scene;
+	to_floats(f->environment, s->environment);
+	for (int i = 0; i < f->n_suns; i++) {
+		struct light l = sun_light(&f->sun[i]);
+		if (shines(l.rgb))
+			s->light[s->n_lights++] = l;
+	}
+	uint32 *cdf = NULL;
+	j->n_map_cdf = f->map.width ? map_cdf(&f->map, &cdf) : 0;
+	j->tables.map_cdf = cdf;
+	if (j->n_map_cdf) {
+		s->map_width = f->map.width;
+		s->map_height = f->map.height;
+		s->map_angle = (float)(4 * M_PI / s->map_width * sin(M_PI / 2 / s->map_height));
+		s->light[s->n_lights++] = (struct light){ .kind = LIGHT_MAP };
+		j->tables.map = f->map.rgb;
+		j->n_map = 3 * (size_t)s->map_width * (size_t)s->map_height;
+	}
+	for (int dark = 0; dark < 2; dark++) {
+		for (int i = 0; i < f->n_quads; i++) {
+			struct light l = quad_light(&f->quad[i], f->medium_position);
+			if (shines(l.rgb) == !dark)
+				s->light[s->n_lights++] = l;
+		}
+		if (!dark)
+			s->n_drawn = s->n_lights;
+	}
+	s->pick = s->n_drawn ? 1.f / (float)s->n_drawn : 0;
 	s->has_ground = f->has_ground;
 	s->ground_height = (float)(f->ground_height - f->medium_position[1]);
 	s->ground_albedo = (float)f->ground_albedo;
@@ -70,48 +131,106 @@ static void optics(struct job *j, const struct medium *m)
 {
 	size_t waves = (size_t)m->n_waves, classes = (size_t)m->n_classes;
 	float *extinction = xalloc(waves, sizeof(float)), *disc = xalloc(classes * waves, sizeof(float));
-	float *most = xalloc(classes, sizeof(float)), *albedo = xalloc((classes + 1) * waves, sizeof(float));
-	float (*colour)[3] = xalloc(waves, sizeof *colour);
+	float *albedo = xalloc((classes + 1) * waves, sizeof(float));
+	float (*rgb)[3] = xalloc(waves, sizeof *rgb), *colour = xalloc(waves, 6 * sizeof *colour);
 	for (size_t w = 0; w < waves; w++) {
 		double ext = 0, sca = 0;
 		for (size_t k = 0; k < classes; k++) {
 			double c_ext = m->c_ext[k * waves + w], c_sca = m->c_sca[k * waves + w];
 			disc[k * waves + w] = (float)(c_ext * 1e-12 / M_PI);
-			most[k] = fmaxf(most[k], disc[k * waves + w]);
+			j->scene.largest = fmaxf(j->scene.largest, disc[k * waves + w]);
 			albedo[k * waves + w] = (float)fmin(1, c_sca / c_ext);
 			ext += m->count[k] * c_ext;
 			sca += m->count[k] * c_sca;
 		}
-		extinction[w] = (float)(ext * 1e-12 / medium_volume(m));
+		/* of the whole medium; on a density grid, where the density is 1 */
+		double volume = j->scene.transport == TRANSPORT_GRID && m->n_density ? m->matter : medium_volume(m);
+		extinction[w] = volume > 0 ? (float)(ext * 1e-12 / volume) : 0;
 		albedo[classes * waves + w] = ext > 0 ? (float)fmin(1, sca / ext) : 0;
 	}
-	const char *wrong = colour_weights(m->n_waves, m->wavelength, colour);
+	const char *wrong = colour_weights(m->n_waves, m->wavelength, rgb);
 	if (wrong)
 		die("medium", "%s", wrong);
-	j->tables = (struct tables){ extinction, disc, most, albedo, &colour[0][0], m->node, m->theta, m->p, m->cdf, m->particle,
-		m->first, m->reference };
+	for (size_t w = 0; w < waves; w++) {     /* shares from the positive parts: a colour out of gamut has others */
+		float sum = 0;
+		for (int c = 0; c < 3; c++)
+			sum += fmaxf(0, rgb[w][c]);
+		for (int c = 0; c < 3; c++) {
+			colour[6 * w + (size_t)c] = rgb[w][c];
+			colour[6 * w + 3 + (size_t)c] = sum > 0 ? fmaxf(0, rgb[w][c]) / sum : 1 / 3.f;
+		}
+	}
+	free(rgb);
+	j->tables = (struct tables){ extinction, disc, albedo, colour, m->node, m->theta, m->p, m->cdf, m->particle, m->first,
+		NULL, NULL, NULL, NULL };
 	j->n_extinction = waves;
 	j->n_disc = classes * waves;
-	j->n_disc_most = classes;
 	j->n_albedo = (classes + 1) * waves;
-	j->n_colour = 3 * waves;
+	j->n_colour = 6 * waves;
 	j->n_node = 2 * (classes + 1);
 	j->n_theta = m->n_nodes;
 	j->n_p = j->n_cdf = m->n_nodes * waves;
 	j->n_particle = 4 * m->n_particles;
 	j->n_first = m->n_first;
-	j->n_reference = m->n_references;
 }
 
-void job_make(struct job *j, const struct scenefile *file, const struct medium *medium, int transport, uint32 seed)
+/* Extinction in the cubes of the finest level. A cube that the box cuts has its particles in the part inside. */
+static float *extinctions(const struct medium *m, size_t n)
+{
+	size_t waves = (size_t)m->n_waves, classes = (size_t)m->n_classes;
+	float *sigma = xalloc(n * waves, sizeof *sigma);
+	for (size_t v = 0; v < n; v++) {
+		const int32_t i[3] = { (int32_t)(v % (size_t)m->voxels[0]), (int32_t)(v / (size_t)m->voxels[0] % (size_t)m->voxels[1]),
+			(int32_t)(v / (size_t)m->voxels[0] / (size_t)m->voxels[1]) };
+		double volume = 1;
+		for (int a = 0; a < 3; a++)
+			volume *= fmin(m->voxel, 2 * m->half[a] - i[a] * m->voxel);
+		for (size_t w = 0; w < waves; w++) {
+			double c = 0;
+			for (size_t k = 0; k < classes; k++)
+				c += m->voxel_count[v * classes + k] * m->c_ext[k * waves + w];
+			sigma[v * waves + w] = (float)(c * 1e-12 / volume);
+		}
+	}
+	return sigma;
+}
+
+static void voxels(struct job *j, const struct medium *m)
+{
+	struct scene *s = &j->scene;
+	size_t n = (size_t)m->voxels[0] * (size_t)m->voxels[1] * (size_t)m->voxels[2];
+	s->counted = m->n_particles > 0;
+	for (int a = 0; a < 3; a++) {
+		s->voxels[a] = m->voxels[a];
+		s->voxel_low[a] = (float)-m->half[a];
+		s->voxel_high[a] = (float)m->half[a];
+		s->voxel[a] = (float)(s->counted ? m->voxel : 2 * m->half[a] / m->voxels[a]);
+	}
+	if (s->transport != TRANSPORT_GRID)
+		return;
+	if (s->counted) {
+		j->voxel = extinctions(m, n);
+		j->n_voxel = n * (size_t)m->n_waves;
+		j->tables.count = m->voxel_count;
+		j->n_count = n * (size_t)m->n_classes;
+	} else {
+		j->n_voxel = n;
+	}
+	j->tables.voxel = s->counted ? j->voxel : m->density;
+}
+
+void job_make(struct job *j, const struct scenefile *file, const struct medium *medium, int transport, int attenuation,
+              uint32 seed)
 {
 	struct scene *s = &j->scene;
 	memset(j, 0, sizeof *j);
-	camera(s, file);
-	lights(s, file);
-	optics(j, medium);
 	s->seed = seed;
 	s->transport = transport;
+	s->attenuation = attenuation;
+	camera(s, file);
+	optics(j, medium);
+	voxels(j, medium);
+	lights(j, file);
 	s->n_waves = medium->n_waves;
 	s->n_groups = (medium->n_waves + MAX_WAVES - 1) / MAX_WAVES;
 	s->n_classes = medium->n_classes;
@@ -146,8 +265,9 @@ void job_free(struct job *j)
 {
 	free((void *)(size_t)j->tables.extinction);
 	free((void *)(size_t)j->tables.disc);
-	free((void *)(size_t)j->tables.disc_most);
 	free((void *)(size_t)j->tables.albedo);
 	free((void *)(size_t)j->tables.colour);
+	free(j->voxel);
+	free((void *)(size_t)j->tables.map_cdf);
 	free(j->film);
 }

@@ -7,18 +7,22 @@
 #include "render/scenefile.h"
 
 #include <stddef.h>
+#include <stdio.h>
 
 struct job {
 	struct scene scene;
 	struct tables tables;
 	/* elements of each table, in the order of struct tables */
-	size_t n_extinction, n_disc, n_disc_most, n_albedo, n_colour, n_node, n_theta, n_p, n_cdf, n_particle, n_first, n_reference;
+	size_t n_extinction, n_disc, n_albedo, n_colour, n_node, n_theta, n_p, n_cdf, n_particle, n_first, n_voxel, n_count,
+		n_map, n_map_cdf;
+	float *voxel;              /* extinctions in cubes, made here */
 	int64 *film;               /* [pixel][scene.film_sums], see kern/film.h */
 	int overflow;              /* a sum went beyond the film's limit */
 };
 
-/* job_make - the tables point into the medium where they can. Dies when the wavelengths make no colour. */
-void job_make(struct job *j, const struct scenefile *file, const struct medium *medium, int transport, uint32 seed);
+/* job_make - the tables point into the medium where they can. Dies when the wavelengths make no colour.
+ * transport, attenuation: as in the kernels' scene.h. */
+void job_make(struct job *j, const struct scenefile *file, const struct medium *medium, int transport, int attenuation, uint32 seed);
 
 /* job_film - an empty film; spectral: with sums for every wavelength. */
 void job_film(struct job *j, int spectral);
@@ -30,7 +34,7 @@ void render_c(struct job *j, uint32 first, uint32 n, int threads);
 
 /* The same by OpenCL, whose device holds the tables and the film meanwhile. Each dies with one line on any failure. */
 struct cl;
-void cl_list(void);
+void cl_list(FILE *out);    /* a line a device: number, name */
 struct cl *cl_start(struct job *j, int device);
 void cl_render(struct cl *c, uint32 first, uint32 n);
 void cl_finish(struct cl *c);      /* brings the film back */

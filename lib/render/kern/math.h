@@ -68,6 +68,35 @@ FN float atan_unit(float z)
 	return shift + (z + z * q * (-0.333332896f + q * (0.199915483f + q * (-0.140289458f + q * 0.0853909995f))));
 }
 
+/* Where the share v of int_0^1 q0 + q1 f + .. + q4 f^4 df is reached, a density not below 0 on [0, 1]: Newton kept in a bracket,
+ * from where a density linear between its ends would have it. */
+FN float invert_density(float q0, float q1, float q2, float q3, float q4, float v)
+{
+	float g1 = 0.5f * q1, g2 = 0.333333333f * q2, g3 = 0.25f * q3, g4 = 0.2f * q4;
+	float end = q0 + q1 + q2 + q3 + q4, spread = q0 + root(most(0.f, q0 * q0 + v * (end * end - q0 * q0)));
+	float target = v * (q0 + g1 + g2 + g3 + g4), f = spread > 0.f ? least(1.f, v * (q0 + end) / spread) : v, lo = 0.f, hi = 1.f;
+	for (int i = 0; i < 4; i++) {
+		float excess = f * (q0 + f * (g1 + f * (g2 + f * (g3 + f * g4)))) - target;
+		float slope = q0 + f * (q1 + f * (q2 + f * (q3 + f * q4)));
+		if (excess > 0.f)
+			hi = f;
+		else
+			lo = f;
+		float next = f - excess / slope;
+		f = next >= lo && next <= hi ? next : 0.5f * (lo + hi);
+	}
+	return f;
+}
+
+/* The angle of the point (x, y) from the x axis towards y, in [-pi, pi], 0 at the origin; absolute error below 8e-7. */
+FN float turn_of(float y, float x)
+{
+	float a = x < 0.f ? -x : x, b = y < 0.f ? -y : y;
+	float t = a > b ? atan_unit(b / a) : b > 0.f ? 0.5f * PI - atan_unit(a / b) : 0.f;
+	t = x < 0.f ? PI - t : t;
+	return y < 0.f ? -t : t;
+}
+
 struct vec {
 	float x, y, z;
 };

@@ -35,8 +35,7 @@ FN float phase_value(const struct tables *t, int n_waves, struct at_angle a, int
 }
 
 /* An angle with the density p(theta) sin(theta) of a wavelength: the interval by its tabulated probability, the place in it by
- * inverting the integral of (linear p) x sin, sin being a cubic over an interval (at most 1 degree: relative error 4e-9): Newton
- * kept in a bracket, from where a density linear between its ends would have it. */
+ * inverting the integral of (linear p) x sin, sin being a cubic over an interval (at most 1 degree: relative error 4e-9). */
 FN struct at_angle phase_sample(const struct tables *t, int n_waves, int class, int wave, uint32 u, float *theta)
 {
 	int low = t->node[2 * class], last = low + t->node[2 * class + 1] - 1, high = last;
@@ -55,20 +54,7 @@ FN struct at_angle phase_sample(const struct tables *t, int n_waves, int class, 
 	/* density (p0 + d f) (s + c1 f + c2 f^2 + c3 f^3) = q0 + q1 f + .. + q4 f^4 */
 	float c1 = c * h, c2 = -0.5f * s * h * h, c3 = -0.166666667f * c * h * h * h;
 	float q0 = p0 * s, q1 = p0 * c1 + d * s, q2 = p0 * c2 + d * c1, q3 = p0 * c3 + d * c2, q4 = d * c3;
-	float g1 = 0.5f * q1, g2 = 0.333333333f * q2, g3 = 0.25f * q3, g4 = 0.2f * q4;
-	v = least(v, 1.f);
-	float end = q0 + q1 + q2 + q3 + q4, spread = q0 + root(most(0.f, q0 * q0 + v * (end * end - q0 * q0)));
-	float target = v * (q0 + g1 + g2 + g3 + g4), f = spread > 0.f ? least(1.f, v * (q0 + end) / spread) : v, lo = 0.f, hi = 1.f;
-	for (int i = 0; i < 4; i++) {
-		float excess = f * (q0 + f * (g1 + f * (g2 + f * (g3 + f * g4)))) - target;
-		float slope = q0 + f * (q1 + f * (q2 + f * (q3 + f * q4)));
-		if (excess > 0.f)
-			hi = f;
-		else
-			lo = f;
-		float next = f - excess / slope;
-		f = next >= lo && next <= hi ? next : 0.5f * (lo + hi);
-	}
+	float f = invert_density(q0, q1, q2, q3, q4, least(v, 1.f));
 	struct at_angle a;
 	a.node = low;
 	a.f = f;
