@@ -141,7 +141,7 @@ static void make_inputs(void)
 			data[p] = (float)(p * (i + 1) % 61) / 64;
 	}
 	char *path = in_folder("zip.exr");
-	exr_write(path, &image);
+	exr_write((struct out[]){ out_open(path, 1) }, &image);
 	exr_free(&image);
 	free(path);
 

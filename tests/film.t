@@ -2,7 +2,7 @@
 # The film: its layers hold what they say, and parts of an image add up to its bytes.
 # shellcheck source=tests/lib.sh
 . "$(dirname "$0")/lib.sh"
-plan 52
+plan 79
 cd "$tmp" || exit 2
 export POCL_CACHE_DIR="$tmp/pocl"
 mkdir "$POCL_CACHE_DIR"
@@ -65,8 +65,8 @@ grains white-grains 4e8 1 0.55
 # ---- light by orders: what was not scattered is the black medium's image, path by path
 
 lights='lights = ( { type = "environment"; radiance = 0.2; }, { type = "sun"; direction = [-0.6, -1.0, -0.3]; irradiance = 2.0; angle = 10.0; } );'
-for t in continuous explicit; do
-	[ $t = explicit ] && grainy=-grains || grainy=
+for t in continuous explicit fat-ray grid; do
+	[ $t = continuous ] && grainy= || grainy=-grains
 	for ground in '' ' ground = { height = -1.2; albedo = 0.4; };'; do
 		for m in black white; do
 			scene $m.scene $m$grainy.medium 32 "$lights$ground"
@@ -91,8 +91,8 @@ ok $? "single scattering: $(mean sun.exr single.G), wanted $want"
 
 # ---- alpha and depth
 
-for t in continuous explicit; do
-	[ $t = explicit ] && grainy=-grains || grainy=
+for t in continuous explicit fat-ray grid; do
+	[ $t = continuous ] && grainy= || grainy=-grains
 	far beer.scene black$grainy.medium ''
 	vrender beer.scene --samples 64 --transport $t -o beer.exr
 	oiiotool beer.exr --ch R beer.exr --ch R=A --add -d float -o one.exr
@@ -137,7 +137,7 @@ grains three 4e8 0.97 0.45 0.55 0.65
 full="lights = ( { type = \"environment\"; radiance = 0.3; }, { type = \"sun\"; direction = [-0.6, -1.0, -0.3]; irradiance = 2.0; angle = 10.0; },
 	{ type = \"sun\"; direction = [1, -1, 0]; irradiance = 1; } ); ground = { height = -1.2; albedo = 0.4; };"
 scene three.scene three.medium 24 "$full"
-for t in explicit continuous; do
+for t in explicit fat-ray grid continuous; do
 	for o in '' --spectral; do
 		vrender three.scene --transport $t $o --samples 9 -o whole.exr
 		vrender three.scene --transport $t $o --sample-range 0:3 -o a.exr
@@ -198,6 +198,9 @@ is '' "$(ls x.exr* 2>/dev/null)" 'no image appears under its name'
 
 vrender three.scene --samples 4 --spectral -o spectral.exr
 ok "$("$MOTES_BUILD/tests/film" spectral.exr >got; echo $?)" "the wavelengths' colours are the image's: $(cat got)"
+scene coloured.scene three.medium 24 'lights = ( { type = "sun"; direction = [-0.6, -1.0, -0.3]; irradiance = [3.0, 1.0, 0.2]; } );'
+vrender coloured.scene --samples 4 --spectral -o spectral.exr
+ok "$("$MOTES_BUILD/tests/film" spectral.exr >got; echo $?)" "of a coloured light, by three wavelengths: $(cat got)"
 bake many 1e6 0.9 0.40 0.42 0.44 0.46 0.48 0.50 0.52 0.54 0.56 0.58 0.60
 scene many.scene many.medium 24 "$lights"
 vrender many.scene --samples 32 --spectral -o many.exr

@@ -74,8 +74,8 @@ int main(void)
 	snprintf(b, sizeof b, "%s/b.exr", folder);
 	fill(&one, 0);
 	fill(&other, 1);
-	exr_write(a, &one);
-	exr_write(b, &other);
+	exr_write((struct out[]){ out_open(a, 1) }, &one);
+	exr_write((struct out[]){ out_open(b, 1) }, &other);
 	exr_read(a, &back);
 	ok(same(&one, &back), "floats and integers of any bits, long names and the history come back");
 	ok(!exr_find(&back, "B") && exr_find(&back, "G"), "channels are found by name");
@@ -86,7 +86,7 @@ int main(void)
 	for (int i = 0; i < WIDTH * HEIGHT; i++)
 		one.channel[0].data[i] = one.channel[1].data[i] = (float)i / 7;
 	one.n = 2;
-	exr_write(a, &one);
+	exr_write((struct out[]){ out_open(a, 1) }, &one);
 	char *command = xtext("oiiotool %s -d float -o %s", a, b);
 	int failed = system(command);
 	if (!failed)

@@ -7,7 +7,7 @@
 int main(void)
 {
 	double worst_log = 0, worst_exp = 0, worst_sin = 0, worst_atan = 0, worst_angle = 0, worst_turn = 0;
-	plan(10);
+	plan(2 + 10);
 	for (int i = 1; i < 2000000; i++) {
 		float x = (float)i * 0x1p-21f, y = (float)i * 86.9f / 2000000, z = (float)i * 6.2831853f / 2000000, s, c;
 		worst_log = fmax(worst_log, fabs(neglog(x) + log(x)) / fmax(1, fabs(log(x))));
@@ -48,5 +48,17 @@ int main(void)
 	ok(film_value(NAN) > (int64)1 << 60 && film_value(INFINITY) > (int64)1 << 60 && film_value(-INFINITY) < -((int64)1 << 60),
 	   "what is not finite is far out of range");
 	ok(film_value(3.14159274f) == (int64)llrint(3.14159274f * FILM_UNIT), "a float's own bits survive");
+	long wrong = 0;
+	for (int k = -(1 << 23); k < 1 << 24; k += 7) {
+		float v = (float)k * 0x1p-30f * 1.5f;
+		wrong += film_value(v) != (int64)floor(v * FILM_UNIT + 0.5) && v > 0;
+	}
+	ok(!wrong, "the film rounds to the nearest: %ld differ", wrong);
+	double worst_path = 0;
+	for (uint32 b = 1; b < 4000000000u; b += b / 64 + 1) {
+		double want = -log1p(-(b + 0.5) * 0x1p-32);
+		worst_path = fmax(worst_path, fabs(free_path(b) / want - 1));
+	}
+	ok(worst_path < 1e-6, "free_path: %.2g, relative", worst_path);
 	return 0;
 }

@@ -166,7 +166,7 @@ int main(void)
 	float *y = exr_add(&grey, "Y");
 	for (int i = 0; i < 6; i++)
 		y[i] = (float)i;
-	exr_write(path, &grey);
+	exr_write((struct out[]){ out_open(path, 1) }, &grey);
 	struct map m;
 	map_read(path, (double[]){ 1, 0.5, 2 }, &m);
 	ok(m.width == 3 && m.height == 2 && m.rgb[15] == 5 && m.rgb[16] == 2.5f && m.rgb[17] == 10, "a map of Y alone, scaled by a colour");

@@ -31,7 +31,8 @@ int main(int argc, char **argv)
 		image_merge(&all, &more, args.operand[i]);
 		image_free(&more);
 	}
-	image_write(output, &all, !image_whole(&all));
+	struct out out = out_open(output, 1);
+	image_write(&out, &all, !image_whole(&all));
 	image_free(&all);
 	free(args.history);
 	return 0;

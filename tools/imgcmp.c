@@ -144,7 +144,8 @@ static void write_difference(const char *path, const char *names, const struct e
 		for (size_t p = 0; p < (size_t)d.width * (size_t)d.height; p++)
 			out[p] = (float)(value(&a->channel[i], p) - value(other, p));
 	}
-	exr_write(path, &d);
+	struct out out = out_open(path, 1);
+	exr_write(&out, &d);
 	exr_free(&d);
 }
 

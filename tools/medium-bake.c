@@ -16,7 +16,8 @@
 /* The relative density and its integral over the medium; resampled to so many voxels along the longest side, if asked to. */
 static void from_density(const char *path, int longest, struct medium *m)
 {
-	enum { PARTS = 4 };        /* along an axis of a voxel, for averages */
+	/* along an axis of a voxel, for averages; a box keeps its own voxels, whose mean is exact */
+	const int parts = longest || m->round ? 4 : 1;
 	struct npy_grid g = { 1, 1, 1, &(float){ 1 } };
 	if (path)
 		g = npy_density(path);
@@ -30,19 +31,21 @@ static void from_density(const char *path, int longest, struct medium *m)
 		m->voxels[a] = (int32_t)n[a];
 	}
 	m->n_density = n[0] * n[1] * n[2];
+	if (m->n_density > INT32_MAX)
+		die(path ? path : "--voxels", "more than 2^31 voxels");
 	m->density = xalloc(m->n_density, sizeof *m->density);
 	for (size_t i = 0; i < m->n_density; i++) {
 		size_t at[3] = { i % n[0], i / n[0] % n[1], i / n[0] / n[1] };
 		double mean = 0;
-		for (int k = 0; k < PARTS * PARTS * PARTS; k++) {
-			int part[3] = { k % PARTS, k / PARTS % PARTS, k / PARTS / PARTS };
+		for (int k = 0; k < parts * parts * parts; k++) {
+			const int part[3] = { k % parts, k / parts % parts, k / parts / parts };
 			double u[3], r2 = 0;
 			for (int a = 0; a < 3; a++) {
-				u[a] = ((double)at[a] + (part[a] + 0.5) / PARTS) / (double)n[a];
+				u[a] = ((double)at[a] + (part[a] + 0.5) / parts) / (double)n[a];
 				r2 += pow(2 * u[a] - 1, 2);
 			}
 			double here = density_at(&g, u[0], u[1], u[2]);
-			mean += here / (PARTS * PARTS * PARTS);
+			mean += here / (parts * parts * parts);
 			all++;
 			sum += m->round && r2 > 1 ? 0 : here;
 		}

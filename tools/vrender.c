@@ -100,6 +100,8 @@ int main(int argc, char **argv)
 		transport = medium.n_particles ? TRANSPORT_EXPLICIT : TRANSPORT_CONTINUOUS;
 	else if ((transport == TRANSPORT_EXPLICIT || transport == TRANSPORT_FAT_RAY) && !medium.n_particles)
 		die(file.medium, "has no particles, which explicit and fat-ray need; bake it from particles, or render it as grid or continuous");
+	if (attenuation == ATTENUATION_EXPONENTIAL && transport != TRANSPORT_FAT_RAY)
+		die("--attenuation", "exponential goes with --transport fat-ray");
 	if (spectral && medium.n_waves > IMAGE_WAVES)
 		die("--spectral", "the medium has %d wavelengths; an image has room for %d", medium.n_waves, IMAGE_WAVES);
 	job_make(&job, &file, &medium, transport, attenuation, (uint32)seed);
@@ -109,6 +111,7 @@ int main(int argc, char **argv)
 		     (const char *[]){ "explicit", "fat-ray", "grid", "continuous" }[transport], medium.n_particles, medium.n_classes, medium.n_waves,
 		     job.tables.extinction[0] * 2 * fmin(medium.half[0], fmin(medium.half[1], medium.half[2])));
 
+	struct out out = out_open(output, 1);    /* before the work, not after */
 	struct cl *cl = backend ? cl_start(&job, (int)device) : NULL;
 	render(&job, cl, (uint32)from, (uint32)to, (int)threads);
 	if (cl)
@@ -118,7 +121,7 @@ int main(int argc, char **argv)
 	struct image image;
 	char *history = tab_join(medium.history, file.history, NULL);
 	image_of(&image, &job, &medium, from, to, samples, history, args.history);
-	image_write(output, &image, part != NULL);
+	image_write(&out, &image, part != NULL);
 	image_free(&image);
 	free(history);
 	job_free(&job);

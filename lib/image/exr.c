@@ -319,15 +319,14 @@ static void write_lines(exr_context_t file, const char *name, const struct exr *
 	exr_encoding_destroy(file, &encode);
 }
 
-void exr_write(const char *path, const struct exr *image)
+void exr_write(struct out *out, const struct exr *image)
 {
-	const char *name = name_of(path, "standard output");
+	const char *name = name_of(out->path, "standard output");
 	exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
 	exr_context_t file;
 	struct blob blob = { NULL, 0, 0 };
 	if (image->width < 1 || image->height < 1 || image->width > EXR_SIDE_MAX || image->height > EXR_SIDE_MAX || image->n < 1)
 		die(name, "an image of %d x %d pixels and %d channels cannot be written", image->width, image->height, image->n);
-	struct out out = out_open(path, 1);
 	init.error_handler_fn = silent;
 	init.user_data = &blob;
 	init.write_fn = blob_write;
@@ -335,10 +334,10 @@ void exr_write(const char *path, const struct exr *image)
 	write_header(file, name, image);
 	write_lines(file, name, image);
 	done(name, exr_finish(&file));
-	if (fwrite(blob.p, 1, blob.n, out.f) != blob.n)
+	if (fwrite(blob.p, 1, blob.n, out->f) != blob.n)
 		die(name, "cannot write:");
 	free(blob.p);
-	out_close(&out);
+	out_close(out);
 }
 
 /* -------------------------------------------------------------------- channels */

@@ -2,6 +2,8 @@
 #ifndef IMAGE_EXR_H
 #define IMAGE_EXR_H
 
+#include "base/out.h"
+
 #include <stddef.h>
 #include <stdint.h>
 
@@ -34,9 +36,9 @@ struct exr {
  * compression. Bit errors go unseen where the format has no checksum: in uncompressed pixels and in free text. */
 void exr_read(const char *path, struct exr *image);
 
-/* exr_write - write scan lines with ZIP compression (path NULL or "-": standard output); bytes depend on content alone: the
+/* exr_write - write scan lines with ZIP compression to an output opened as binary, and close it; bytes depend on content alone: the
  * order of the channels does not matter either. Dies. */
-void exr_write(const char *path, const struct exr *image);
+void exr_write(struct out *out, const struct exr *image);
 
 /* exr_find - the channel of that name, NULL if there is none. */
 const struct exr_channel *exr_find(const struct exr *image, const char *name);

@@ -34,7 +34,7 @@ static double best_side(double n, double r)
 
 static void place(struct medium *m)
 {
-	double low[3], high[3], volume = 1, r = largest_disc(m), total = 1;
+	double low[3], high[3], volume = 1, r = largest_disc(m), total = INFINITY;
 	for (int a = 0; a < 3; a++) {
 		low[a] = INFINITY;
 		high[a] = -INFINITY;
@@ -48,13 +48,16 @@ static void place(struct medium *m)
 		high[a] += margin;
 		volume *= high[a] - low[a];
 	}
-	double side = best_side((double)m->n_particles / volume, r);
-	for (int a = 0; a < 3; a++)
-		total *= fmax(1, ceil((high[a] - low[a]) / side));
-	if (total > CELLS_MAX)
-		side *= cbrt(total / CELLS_MAX);
+	for (double side = best_side((double)m->n_particles / volume, r); total > CELLS_MAX; side *= 1.1) {
+		total = 1;
+		for (int a = 0; a < 3; a++) {
+			double n = fmax(1, ceil((high[a] - low[a]) / side));
+			total *= n;
+			m->cells[a] = (int32_t)fmin(n, GRID_SIDE);
+			total = n > GRID_SIDE ? INFINITY : total;
+		}
+	}
 	for (int a = 0; a < 3; a++) {
-		m->cells[a] = (int32_t)fmin(fmax(1, ceil((high[a] - low[a]) / side)), CELLS_MAX);
 		m->low[a] = (float)low[a];
 		m->cell[a] = (float)((high[a] - m->low[a]) / m->cells[a] * (1 + 1e-6));
 	}

@@ -2,6 +2,7 @@
 
 #include "base/die.h"
 #include "base/out.h"
+#include "medium/grid.h"
 #include "medium/voxels.h"
 
 #include <fcntl.h>
@@ -193,7 +194,7 @@ static void grid(const char *path, struct medium *m, char *line)
 		m->cells[a] = (int32_t)strtol(f[1 + a], NULL, 10);
 		m->low[a] = strtof(f[4 + a], NULL);
 		m->cell[a] = strtof(f[7 + a], NULL);
-		if (m->cells[a] < 0 || m->cells[a] > 1 << 28 || !isfinite(m->low[a]) || !isfinite(m->cell[a]))
+		if (m->cells[a] < 0 || m->cells[a] > GRID_SIDE || !isfinite(m->low[a]) || !isfinite(m->cell[a]))
 			damaged(path, "bad grid line");
 	}
 }
@@ -276,6 +277,9 @@ static void counts_in(const char *path, struct medium *m, const uint64_t *n)
 	m->n_first = (size_t)n[10];
 	m->n_voxel_count = (size_t)n[10 + 1];
 	m->n_density = (size_t)n[12];
+	/* the kernels index nodes, cells and voxels by int */
+	if ((double)n[6] * (double)n[0] > INT32_MAX || n[10] > INT32_MAX || n[11] > INT32_MAX || n[12] > INT32_MAX)
+		damaged(path, "too large");
 	counts_of(m, want);
 	if (memcmp(want, n, sizeof want))
 		damaged(path, "sections do not agree");

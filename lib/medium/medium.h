@@ -45,7 +45,8 @@ double medium_volume(const struct medium *m);
 /* medium_write - write a file (not standard output: it is mapped when read). Dies. */
 void medium_write(const char *path, const struct medium *m);
 
-/* medium_open - verify a file by one sequential read, map it and check every index and value in it. Dies. */
+/* medium_open - verify a file by one sequential read, map it and check its indices, so that the kernels can rely on
+ * them, and the ranges of its values. Dies. */
 void medium_open(const char *path, struct medium *m);
 
 void medium_close(struct medium *m);

@@ -160,7 +160,7 @@ static void append(struct medium *m, int class, const struct curve *grid, const 
 {
 	size_t n = (size_t)grid->n, waves = (size_t)m->n_waves, at = m->n_nodes;
 	double *p = xalloc(n, sizeof *p);
-	if (at + n > INT32_MAX)
+	if ((double)(at + n) * (double)waves > INT32_MAX)
 		die("phase functions", "too many angles in all");
 	m->n_nodes += n;
 	m->theta = xgrow(m->theta, m->n_nodes, sizeof *m->theta);
@@ -181,7 +181,7 @@ static void append(struct medium *m, int class, const struct curve *grid, const 
 	free(p);
 }
 
-static void curve_check(const struct tab *t, const struct curve *c, double wavelength, double radius)
+static void curve_check(const struct tab *t, struct curve *c, double wavelength, double radius)
 {
 	char what[96];
 	if (radius > 0)
@@ -192,6 +192,8 @@ static void curve_check(const struct tab *t, const struct curve *c, double wavel
 		die(tab_path(t), "has no phase function for %s", what);
 	if (c->n < 2 || c->theta[0] > 1e-9 || c->theta[c->n - 1] < M_PI * (1 - 1e-9))
 		die(tab_path(t), "%s: theta must reach from 0 to 180 deg", what);
+	c->theta[0] = 0;
+	c->theta[c->n - 1] = M_PI;
 	struct curve grid = common_grid(1, c);
 	for (int i = 0; i < grid.n; i++)
 		grid.p[i] = phase_at(c->n, c->theta, c->p, grid.theta[i]);

@@ -61,6 +61,8 @@ void voxels_count(struct medium *m, int longest)
 	m->voxel = side / longest;
 	for (int a = 0; a < 3; a++)
 		m->voxels[a] = (int32_t)fmax(1, ceil(2 * m->half[a] / m->voxel * (1 - 1e-9)));
+	if ((double)m->voxels[0] * m->voxels[1] * m->voxels[2] * m->n_classes > INT32_MAX)
+		die("--voxels", "%d x %d x %d cubes of %d classes are too many", m->voxels[0], m->voxels[1], m->voxels[2], m->n_classes);
 	m->n_voxel_count = voxels_size(m->voxels) * (size_t)m->n_classes;
 	m->voxel_count = xalloc(m->n_voxel_count, sizeof *m->voxel_count);
 	for (size_t i = 0; i < m->n_particles; i++) {

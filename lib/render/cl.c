@@ -91,6 +91,8 @@ static void build(struct cl *c, cl_device_id device)
 	c->program = clCreateProgramWithSource(c->context, 1, &source, NULL, &error);
 	check(error, "reading the kernels");
 	clGetDeviceInfo(device, CL_DEVICE_SINGLE_FP_CONFIG, sizeof rounding, &rounding, NULL);
+	if (!(rounding & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) || !(rounding & CL_FP_DENORM))
+		warn("OpenCL", "the device rounds otherwise than the C backend; the last bits of the image may differ");
 	const char *options = rounding & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT ? "-cl-std=CL1.2 -cl-fp32-correctly-rounded-divide-sqrt"
 	    : "-cl-std=CL1.2";
 	error = clBuildProgram(c->program, 1, &device, options, NULL, NULL);

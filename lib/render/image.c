@@ -274,7 +274,7 @@ void image_merge(struct image *into, const struct image *more, const char *path)
 
 /* -------------------------------------------------------------------- the file */
 
-void image_write(const char *path, const struct image *m, int sums)
+void image_write(struct out *out, const struct image *m, int sums)
 {
 	struct exr e = { .width = m->width, .height = m->height };
 	e.history = xtext("%s", m->history);
@@ -295,7 +295,7 @@ void image_write(const char *path, const struct image *m, int sums)
 		free(range);
 		free(unit);
 	}
-	exr_write(path, &e);
+	exr_write(out, &e);
 	exr_free(&e);
 }
 

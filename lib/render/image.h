@@ -43,7 +43,7 @@ void image_merge(struct image *into, const struct image *more, const char *path)
 int image_whole(const struct image *m);
 
 /* image_write - write the layers, and the sums where asked for. Dies. */
-void image_write(const char *path, const struct image *m, int sums);
+void image_write(struct out *out, const struct image *m, int sums);
 
 void image_free(struct image *m);
 

@@ -37,7 +37,6 @@ static void camera(struct scene *s, const struct scenefile *f)
 		s->right[i] = (float)(right[i] * half * f->width / longer);
 		s->up[i] = (float)(up[i] * half * f->height / longer);
 	}
-	s->footprint = (float)pow(2 * half / longer, 2);
 	s->width = f->width;
 	s->height = f->height;
 }
@@ -132,7 +131,7 @@ static void optics(struct job *j, const struct medium *m)
 	size_t waves = (size_t)m->n_waves, classes = (size_t)m->n_classes;
 	float *extinction = xalloc(waves, sizeof(float)), *disc = xalloc(classes * waves, sizeof(float));
 	float *albedo = xalloc((classes + 1) * waves, sizeof(float));
-	float (*colour)[3] = xalloc(waves, sizeof *colour);
+	float (*rgb)[3] = xalloc(waves, sizeof *rgb), *colour = xalloc(waves, 6 * sizeof *colour);
 	for (size_t w = 0; w < waves; w++) {
 		double ext = 0, sca = 0;
 		for (size_t k = 0; k < classes; k++) {
@@ -148,15 +147,25 @@ static void optics(struct job *j, const struct medium *m)
 		extinction[w] = volume > 0 ? (float)(ext * 1e-12 / volume) : 0;
 		albedo[classes * waves + w] = ext > 0 ? (float)fmin(1, sca / ext) : 0;
 	}
-	const char *wrong = colour_weights(m->n_waves, m->wavelength, colour);
+	const char *wrong = colour_weights(m->n_waves, m->wavelength, rgb);
 	if (wrong)
 		die("medium", "%s", wrong);
-	j->tables = (struct tables){ extinction, disc, albedo, &colour[0][0], m->node, m->theta, m->p, m->cdf, m->particle, m->first,
+	for (size_t w = 0; w < waves; w++) {     /* shares from the positive parts: a colour out of gamut has others */
+		float sum = 0;
+		for (int c = 0; c < 3; c++)
+			sum += fmaxf(0, rgb[w][c]);
+		for (int c = 0; c < 3; c++) {
+			colour[6 * w + (size_t)c] = rgb[w][c];
+			colour[6 * w + 3 + (size_t)c] = sum > 0 ? fmaxf(0, rgb[w][c]) / sum : 1 / 3.f;
+		}
+	}
+	free(rgb);
+	j->tables = (struct tables){ extinction, disc, albedo, colour, m->node, m->theta, m->p, m->cdf, m->particle, m->first,
 		NULL, NULL, NULL, NULL };
 	j->n_extinction = waves;
 	j->n_disc = classes * waves;
 	j->n_albedo = (classes + 1) * waves;
-	j->n_colour = 3 * waves;
+	j->n_colour = 6 * waves;
 	j->n_node = 2 * (classes + 1);
 	j->n_theta = m->n_nodes;
 	j->n_p = j->n_cdf = m->n_nodes * waves;
@@ -209,6 +218,20 @@ static void voxels(struct job *j, const struct medium *m)
 	j->tables.voxel = s->counted ? j->voxel : m->density;
 }
 
+/* Fat rays have the area of a pixel's footprint at the medium's nearest depth (eq 23 with kappa 1), and no less than any particle. */
+static float cross_section(const struct scenefile *f, const struct medium *m, float largest)
+{
+	double d2 = 0, pixel = 2 * tan(f->fov * M_PI / 360) / fmax(f->width, f->height), eye2 = 0;
+	for (int a = 0; a < 3; a++) {
+		double eye = f->position[a] - f->medium_position[a];
+		eye2 += eye * eye;
+		d2 += pow(fmax(0, fabs(eye) - m->half[a]), 2);
+	}
+	if (m->round)
+		d2 = pow(fmax(0, sqrt(eye2) - m->half[0]), 2);
+	return (float)fmax(M_PI * largest, pixel * pixel * d2);
+}
+
 void job_make(struct job *j, const struct scenefile *file, const struct medium *medium, int transport, int attenuation,
               uint32 seed)
 {
@@ -220,6 +243,7 @@ void job_make(struct job *j, const struct scenefile *file, const struct medium *
 	camera(s, file);
 	optics(j, medium);
 	voxels(j, medium);
+	s->fat = cross_section(file, medium, s->largest);
 	lights(j, file);
 	s->n_waves = medium->n_waves;
 	s->n_groups = (medium->n_waves + MAX_WAVES - 1) / MAX_WAVES;

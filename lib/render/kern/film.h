@@ -6,7 +6,6 @@
 #include "render/kern/path.h"
 
 #define FILM_UNIT 1073741824.0     /* 2^30 */
-#define FILM_LIMIT 0x1p32          /* of a sum over a pixel's samples; a sample alone stays below 2^31 */
 
 /* The sums of a pixel. Three are red, green and blue. */
 enum {
@@ -27,7 +26,10 @@ FN int64 film_value(float v)
 	v = v < 2147483520.f ? v : 2147483520.f;
 	v = v > -2147483520.f ? v : -2147483520.f;
 	int whole = (int)v;
-	int part = (int)((v - (float)whole) * 1073741824.f + (v < 0.f ? -0.5f : 0.5f));
+	float rest = (v - (float)whole) * 1073741824.f;
+	int part = (int)rest;
+	rest -= (float)part;
+	part += (rest >= 0.5f) - (rest <= -0.5f);
 	return (int64)whole * 1073741824 + part;
 }
 
@@ -82,7 +84,7 @@ FN int film_take(const struct scene *s, int64 *sum, const struct path *p)
 	return bad;
 }
 
-/* Samples [first, first + n) of a pixel added to its film; *overflow is set where a sum passes FILM_LIMIT. */
+/* Samples [first, first + n) of a pixel added to its film; *overflow is set where a sum passes 2^32. */
 FN void render_pixel(const struct scene *s, const struct tables *tab, GLOBAL int64 *film, GLOBAL int *overflow, uint32 pixel,
                      uint32 first, uint32 n)
 {

@@ -30,7 +30,8 @@ FN float meeting(const struct scene *s, const struct tables *tab, int class, int
 /* A number in [0, 1) of a particle and a vertex; for all wavelengths the same, so that they meet the same particles. */
 FN float coin(const struct random *random, int id)
 {
-	return (float)mix((uint32)id * 0x9e3779b1u + random->counter, random->key ^ 0x5bd1e995u) * 0x1p-32f;
+	uint32 bits = mix((uint32)id * 0x9e3779b1u + random->counter, random->key ^ 0x5bd1e995u);
+	return least((float)bits * 0x1p-32f, 0x1.fffffep-1f);
 }
 
 /* Take one particle into account. */

@@ -71,11 +71,11 @@ FN int class_in(const struct scene *s, const struct tables *tab, int voxel, int 
 }
 
 FN struct collision flight_voxels(const struct scene *s, const struct tables *tab, struct ray r, float t_end, struct waves w,
-                                  int hero, float u, float u_class, float *event)
+                                  int hero, uint32 bits, float u_class, float *event)
 {
 	struct passed g;
 	struct collision c = { 0, r.from, s->n_classes, NONE };
-	float target = neglog(1.f - u), density = tab->extinction[wave_of(w, hero)];
+	float target = free_path(bits), density = tab->extinction[wave_of(w, hero)];
 	target = s->counted ? target : density > 0.f ? target / density : FAR;
 	pass_voxels(s, tab, r, t_end, w, hero, target, &g);
 	c.happened = g.reached;
@@ -93,13 +93,13 @@ FN struct collision flight_voxels(const struct scene *s, const struct tables *ta
 }
 
 FN struct collision flight_bulk(const struct scene *s, const struct tables *tab, struct ray r, float t_end, struct waves w,
-                                int hero, float u, float *event)
+                                int hero, uint32 bits, float *event)
 {
 	struct collision c = { 0, r.from, s->n_classes, NONE };
 	float t0, t1;
 	clip_medium(s, r, &t0, &t1);
 	float length = most(least(t1, t_end) - t0, 0.f), sigma = tab->extinction[wave_of(w, hero)];
-	float free = neglog(1.f - u);
+	float free = free_path(bits);
 	c.happened = free < sigma * length;
 	if (c.happened) {
 		length = free / sigma;
@@ -120,8 +120,8 @@ FN struct collision free_flight(const struct scene *s, const struct tables *tab,
 	if (s->transport == TRANSPORT_EXPLICIT || s->transport == TRANSPORT_FAT_RAY)
 		return flight_particles(s, tab, r, t_end, w, hero, random, event);
 	if (s->transport == TRANSPORT_GRID)
-		return flight_voxels(s, tab, r, t_end, w, hero, draw(random, d), draw(random, d + 1), event);
-	return flight_bulk(s, tab, r, t_end, w, hero, draw(random, d), event);
+		return flight_voxels(s, tab, r, t_end, w, hero, draw_bits(random, d), draw(random, d + 1), event);
+	return flight_bulk(s, tab, r, t_end, w, hero, draw_bits(random, d), event);
 }
 
 #endif

@@ -26,16 +26,18 @@ struct path {
 };
 
 enum { DRAW_FLIGHT, DRAW_CLASS, DRAW_ANGLE, DRAW_AZIMUTH, DRAW_ROULETTE, DRAW_LIGHT, DRAW_LIGHT_1, DRAW_LIGHT_2 };
-enum { DRAW_PIXEL_X, DRAW_PIXEL_Y, DRAW_HERO, DRAW_GROUP };
+enum { DRAW_PIXEL_X, DRAW_PIXEL_Y, DRAW_HERO };
 
-/* A light's colour multiplies the film's channels, so that it is seen as it is, whatever the wavelengths. */
+/* A light's colour multiplies the film's channels, so that it is seen as it is, whatever the wavelengths; the wavelength itself sees
+ * the mean of the light's channels that its own colour gives. */
 FN void see(const struct tables *tab, struct path *p, int j, float k, const float *rgb)
 {
-	GLOBAL const float *c = tab->colour + 3 * wave_of(p->waves, j);
-	float seen = p->weight[j] * k;
-	for (int i = 0; i < 3; i++)
-		p->rgb[i] += c[i] * (seen * rgb[i]);
-	p->spectrum[j] += seen * rgb[1];
+	GLOBAL const float *c = tab->colour + 6 * wave_of(p->waves, j);
+	for (int i = 0; i < 3; i++) {
+		float seen = p->weight[j] * k * rgb[i];
+		p->rgb[i] += c[i] * seen;
+		p->spectrum[j] += c[3 + i] * seen;
+	}
 }
 
 /* The medium scatters the path: what it sees from here on belongs to the next order. */
@@ -77,12 +79,10 @@ FN struct path path_begin(const struct scene *s, uint32 pixel, uint32 sample)
 	p.ray.from = load3(s->eye);
 	p.ray.along = unit3(add(load3(s->forward), add(scale(load3(s->right), x), scale(load3(s->up), y))));
 	p.ray.skip = NONE;
-	/* A fat ray covers the pixel's footprint where the ray enters the medium, and no less than any particle (eq 23). */
-	float t0, t1, slant = dot3(p.ray.along, load3(s->forward));
-	clip_medium(s, p.ray, &t0, &t1);
-	p.ray.area = most(PI * s->largest, t0 < t1 ? s->footprint * slant * slant * slant * t0 * t0 : 0.f);
+	p.ray.area = s->fat;
 	p.waves.step = s->n_groups;
-	p.waves.first = (int)(draw(&p.random, DRAW_GROUP) * (float)s->n_groups);
+	/* groups of wavelengths take turns, each pixel from another one on: any share of samples is unbiased, full turns are even */
+	p.waves.first = (int)((sample + mix(pixel, s->seed)) % (uint32)s->n_groups);
 	p.waves.n = (s->n_waves - p.waves.first + s->n_groups - 1) / s->n_groups;
 	p.hero = (int)(draw(&p.random, DRAW_HERO) * (float)p.waves.n);
 	for (int j = 0; j < MAX_WAVES; j++) {

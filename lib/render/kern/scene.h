@@ -29,7 +29,7 @@ struct scene {
 	int width, height;
 	uint32 seed;
 	int transport, attenuation;
-	float footprint;           /* area of a pixel on the plane 1 m ahead, m^2: what a fat ray covers */
+	float fat;                 /* cross-section of fat rays, m^2 */
 	int n_waves, n_groups;
 	int n_classes;             /* class n_classes is the mixture of the whole medium */
 	int round;                 /* the medium fills a sphere of radius extent[0], else a box */
@@ -57,7 +57,7 @@ struct tables {
 	GLOBAL const float *extinction;  /* [wave] m^-1, of the whole medium; for a density grid, where it is 1 */
 	GLOBAL const float *disc;        /* [class][wave] squared radius of the disc of area c_ext, m^2 */
 	GLOBAL const float *albedo;      /* [class][wave] */
-	GLOBAL const float *colour;      /* [wave][3] linear RGB of radiance 1 */
+	GLOBAL const float *colour;      /* [wave][6] linear RGB of radiance 1; the shares of a light's R, G and B in it */
 	GLOBAL const int *node;          /* [class][2] first node of the phase table, number of nodes */
 	GLOBAL const float *theta;       /* [node] rad */
 	GLOBAL const float *p;           /* [node][wave] sr^-1, linear in theta between nodes */
