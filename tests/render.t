@@ -4,7 +4,7 @@
 . "$(dirname "$0")/lib.sh"
 # shellcheck source=tests/render.sh
 . "$(dirname "$0")/render.sh"
-plan 30
+plan 46
 hg 0 0.55 >iso.phase
 hg 0.8 0.55 >hg.phase
 hg 0.8 0.45 0.55 0.65 >hg3.phase
@@ -14,7 +14,7 @@ hg 0.8 0.45 0.55 0.65 >hg3.phase
 cube white.medium 4000000 1 hg.phase
 xsections 100000000 1 0.55 >big.xsect
 grains white-grains.medium 3e5 big.xsect hg.phase
-for t in explicit continuous; do
+for t in explicit fat-ray grid continuous; do
 	scene furnace.scene white-grains.medium 48 ''
 	vrender furnace.scene --samples 16 --transport $t -o f.exr
 	low=$(stats f.exr Min | awk '{ print $1 }') high=$(stats f.exr Max | awk '{ print $1 }')
@@ -71,7 +71,7 @@ grains three.medium 3000 three.xsect hg3.phase
 full='lights = ( { type = "environment"; radiance = 0.3; }, { type = "sun"; direction = [-0.6, -1.0, -0.3]; irradiance = 2.0; angle = 10.0; },
 	{ type = "sun"; direction = [1, -1, 0]; irradiance = 1; } ); ground = { height = -1.2; albedo = 0.4; };'
 scene three.scene three.medium 32 "$full"
-for t in explicit continuous; do
+for t in explicit fat-ray grid continuous; do
 	vrender three.scene --samples 8 --transport $t --threads 1 -o t1.exr
 	vrender three.scene --samples 8 --transport $t --threads 2 -o t2.exr
 	cmp t1.exr t2.exr
@@ -83,7 +83,7 @@ for t in explicit continuous; do
 	ok $? "$t: an independent reader finds no NaN"
 done
 scene tiny.scene three.medium 4 "$full"
-for t in explicit continuous; do
+for t in explicit fat-ray grid continuous; do
 	vrender tiny.scene --samples 1 --transport $t -o c.exr
 	# the ordinary build, since a sanitizer does not go with the simulator's libraries; FN=static, since inlining leaves
 	# intrinsics that the simulator does not know

@@ -51,7 +51,7 @@ static void row(const char *path, long number, char *line, int n, const struct t
 			*tab = 0;
 		errno = 0;
 		out[i] = strtod(c, &end);
-		if (end == c || *end || *c == ' ')
+		if (end == c || *end || *c == ' ' || strpbrk(c, "xX"))
 			die(path, "line %ld: column %s: '%s' is not a number", number, cols[i].name, c);
 		if (isinf(out[i]) && errno == ERANGE)
 			die(path, "line %ld: column %s: '%s' is too large", number, cols[i].name, c);
@@ -87,6 +87,8 @@ int main(int argc, char **argv)
 		if (!length || line[length - 1] != '\n')
 			die(path, "line %ld: is cut short (no newline)", number + 1);
 		line[length - 1] = 0;
+		if (length > 1 && line[length - 2] == '\r')
+			die(path, "line %ld: ends in a carriage return; lines end in a newline alone", number + 1);
 		if (!number++) {
 			n = columns(path, line, cols);
 			out = tab_create(output, "", args.history, n, cols);
