@@ -86,7 +86,9 @@ static int ascending(const void *a, const void *b)
 /* Tables are looked up by wavelength, and match within 1e-9: a second of the same could not be told from the first. */
 static void wavelengths_differ(const struct reals *w)
 {
-	struct reals sorted = { xalloc(w->n + 1, sizeof(double)), w->n };
+	if (w->n < 2)
+		return;
+	struct reals sorted = { xalloc(w->n, sizeof(double)), w->n };
 	memcpy(sorted.v, w->v, w->n * sizeof(double));
 	qsort(sorted.v, sorted.n, sizeof(double), ascending);
 	for (size_t i = 1; i < sorted.n; i++)
