@@ -76,8 +76,8 @@ demo: programs
 	PATH="$(CURDIR)/$(B)/bin:$$PATH" $(MAKE) -C data/scenes/mist OUT="$(CURDIR)/$(B)/demo"
 
 # Charts of error against time, in $(B)/bench.
-bench: programs
-	PATH="$(CURDIR)/$(B)/bin:$$PATH" sh tests/bench/run $(B)/bench
+bench: programs $(CHECKS:%=$(B)/tests/%)
+	PATH="$(CURDIR)/$(B)/bin:$$PATH" MOTES_TESTS="$(CURDIR)/$(B)/tests" sh tests/bench/run $(B)/bench
 
 install: programs
 	install -d $(DESTDIR)$(PREFIX)/bin

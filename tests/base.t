@@ -4,7 +4,7 @@
 . "$(dirname "$0")/lib.sh"
 tools=$(cd "$top/tools" && echo *.c | sed 's/\.c//g')
 # shellcheck disable=SC2086
-plan $((55 + 3 * $(echo $tools | wc -w)))
+plan $((56 + 3 * $(echo $tools | wc -w)))
 cd "$tmp" || exit 2
 tab=$(printf '\t')
 
@@ -127,6 +127,9 @@ is "1 0.25" "$? $(awk '$1 == "R" { print $2 }' out)" 'another differs, and by ho
 imgcmp --channels G,B a.exr b.exr >out && imgcmp --max 0.2501 a.exr b.exr >out && imgcmp --rms 0.2501 --block 4 a.exr b.exr >out
 ok $? 'channels, tolerances, blocks'
 oiiotool a.exr --crop 60x43 -d float -o c.exr
+imgcmp --difference d.exr b.exr a.exr >out
+oiiotool --stats d.exr >out
+is "Stats Avg: 0.250000 0.000000 0.000000 (float)" "$(grep Avg out | sed 's/^ *//')" 'the picture of a difference'
 refused 'images of different sizes' 'c.exr: is 60 x 43 pixels, a.exr is 61 x 43' imgcmp a.exr c.exr
 oiiotool --pattern constant:color=1 8x8 1 --chnames Z -d float -o z.exr
 refused 'a picture without colours' 'neither channels R, G, B nor a channel Y' exr2png z.exr

@@ -29,7 +29,7 @@ static const struct input {
 	int flags;
 } sizes = { "sizes", GUARDED }, coeffs = { "coeffs", GUARDED }, xsect = { "xsect", GUARDED }, phase = { "phase", GUARDED },
   grains = { "grains", GUARDED }, medium = { "medium", GUARDED }, scene = { "scene", 0 },
-  zip = { "zip.exr", 0 }, piz = { "piz.exr", 0 }, tiled = { "tiled.exr", 0 };
+  zip = { "zip.exr", 0 }, part = { "part.exr", 0 }, piz = { "piz.exr", 0 }, tiled = { "tiled.exr", 0 };
 
 #define LIGHT "--particle", "1.33", "--wavelength", "550nm"
 #define BAKE "--box", "1m,1m,1m", "-o", "@out"
@@ -58,6 +58,7 @@ static const struct reader {
 	{ "exr2png", &zip, 31, { NULL } },
 	{ "exr2png", &piz, 31, { NULL } },
 	{ "exr2png", &tiled, 31, { NULL } },
+	{ "exr-merge", &part, 53, { "-o", "@out", "-", NULL } },
 	{ "imgcmp", &tiled, 41, { "-", "@tiled.exr", NULL } },
 };
 #define READERS (sizeof readers / sizeof *readers)
@@ -150,7 +151,8 @@ static void make_inputs(void)
 	free(path);
 	char *command = xtext("cd %s && oiiotool zip.exr --ch R,G,B -d half --compression piz -o piz.exr && "
 	    "oiiotool zip.exr --ch R,G,B -d float --compression pxr24 --tile 16 16 -o tiled.exr && "
-	    "{ ! [ -x \"$BIN/medium-bake\" ] || \"$BIN/medium-bake\" --xsect xsect --phase phase --box 1m,1m,1m -o medium grains; }", folder);
+	    "{ ! [ -x \"$BIN/medium-bake\" ] || \"$BIN/medium-bake\" --xsect xsect --phase phase --box 1m,1m,1m -o medium grains; } && "
+	    "{ ! [ -x \"$BIN/vrender\" ] || \"$BIN/vrender\" --sample-range 0:2 --spectral -o part.exr scene; }", folder);
 	if (system(command))
 		die(folder, "cannot make the files to be damaged");
 	free(command);

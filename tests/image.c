@@ -20,6 +20,10 @@ static void fill(struct exr *image, int backwards)
 	image->width = WIDTH;
 	image->height = HEIGHT;
 	image->history = xtext("one --a 'b c'\ntwo\n");
+	exr_set_text(image, backwards ? "units" : "another", "1 2");
+	exr_set_text(image, backwards ? "another" : "units", "0");
+	exr_set_text(image, "units", "m");
+	exr_set_text(image, "another", "0 1");
 	for (int k = 0; k < 4; k++) {
 		int i = backwards ? 3 - k : k;
 		float *data = exr_add(image, names[i]);
@@ -36,6 +40,9 @@ static int same(const struct exr *a, const struct exr *b)
 {
 	if (a->width != b->width || a->height != b->height || a->n != b->n || strcmp(a->history, b->history))
 		return 0;
+	for (int i = 0; i < a->n_texts; i++)
+		if (!exr_text(b, a->text[i].name) || strcmp(a->text[i].value, exr_text(b, a->text[i].name)))
+			return 0;
 	for (int i = 0; i < a->n; i++) {
 		const struct exr_channel *c = &a->channel[i], *d = exr_find(b, c->name);
 		if (!d || c->is_uint != d->is_uint ||

@@ -6,8 +6,8 @@
 
 int main(void)
 {
-	double worst_log = 0, worst_exp = 0, worst_sin = 0, worst_atan = 0, worst_angle = 0;
-	plan(9);
+	double worst_log = 0, worst_exp = 0, worst_sin = 0, worst_atan = 0, worst_angle = 0, worst_turn = 0;
+	plan(10);
 	for (int i = 1; i < 2000000; i++) {
 		float x = (float)i * 0x1p-21f, y = (float)i * 86.9f / 2000000, z = (float)i * 6.2831853f / 2000000, s, c;
 		worst_log = fmax(worst_log, fabs(neglog(x) + log(x)) / fmax(1, fabs(log(x))));
@@ -35,6 +35,13 @@ int main(void)
 			worst_angle = fmax(worst_angle, fabs(angle_between(a, b) - t));
 		}
 	ok(worst_angle < 1e-6, "angle_between: %.2g rad", worst_angle);
+
+	for (int i = -1000000; i <= 1000000; i++) {
+		float t = (float)i * 3.1415925e-6f, r = bits_float(0x3f800000u + ((uint32)i * 0x9e3779b9u >> 4) % 0x4000000u);
+		float y = r * (float)sin(t), x = r * (float)cos(t);
+		worst_turn = fmax(worst_turn, fabs(turn_of(y, x) - atan2(y, x)));
+	}
+	ok(worst_turn < 8e-7 && turn_of(0.f, 0.f) == 0.f && turn_of(0.f, -1.f) == PI, "turn_of: %.2g rad", worst_turn);
 
 	ok(film_value(1.f) == 1 << 30 && film_value(-0.25f) == -(1 << 28) && film_value(0x1p-31f) == 1 && film_value(0.f) == 0,
 	   "the film's unit is 2^-30, rounded to the nearest");

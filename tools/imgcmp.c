@@ -2,6 +2,7 @@
 #include "base/die.h"
 #include "base/opt.h"
 #include "base/out.h"
+#include "base/tab.h"
 #include "image/exr.h"
 
 #include <float.h>
@@ -75,10 +76,18 @@ static void print(FILE *f, const char *name, const struct sums *s)
 	        sqrt(s->block_square / n), s->block_max, s->column, s->row);
 }
 
+/* Halves of the exact sums of a part of an image: as numbers they say nothing. */
+static int is_sum(const char *name)
+{
+	return !strncmp(name, "sum.", 4);
+}
+
 /* Is the channel to be compared? */
 static int chosen(const char *names, const char *name)
 {
 	size_t n = strlen(name);
+	if (!names && is_sum(name))
+		return 0;
 	for (const char *w = names; w; w = strchr(w, ',') ? strchr(w, ',') + 1 : NULL)
 		if (!strncmp(w, name, n) && (w[n] == ',' || !w[n]))
 			return 1;
@@ -106,16 +115,50 @@ static int alone(FILE *f, const char *names, const struct exr *a, const struct e
 	return n;
 }
 
+/* The sums of both, where they have the same: bit by bit. */
+static int other_sums(FILE *f, const struct exr *a, const struct exr *b)
+{
+	int n = 0;
+	for (int i = 0; i < a->n; i++) {
+		const struct exr_channel *c = &a->channel[i], *d = exr_find(b, c->name);
+		if (is_sum(c->name) && d && memcmp(c->data, d->data, (size_t)a->width * (size_t)a->height * sizeof *c->data)) {
+			fprintf(f, "channel %s: other integers\n", c->name);
+			n++;
+		}
+	}
+	return n;
+}
+
+/* The picture of a - b, of the channels that are compared. */
+static void write_difference(const char *path, const char *names, const struct exr *a, const struct exr *b, const char *command)
+{
+	static struct exr d;
+	d.width = a->width;
+	d.height = a->height;
+	d.history = tab_join(a->history ? a->history : "", b->history ? b->history : "", command, NULL);
+	for (int i = 0; i < a->n; i++) {
+		const struct exr_channel *other = exr_find(b, a->channel[i].name);
+		if (!other || !chosen(names, a->channel[i].name))
+			continue;
+		float *out = exr_add(&d, other->name);
+		for (size_t p = 0; p < (size_t)d.width * (size_t)d.height; p++)
+			out[p] = (float)(value(&a->channel[i], p) - value(other, p));
+	}
+	exr_write(path, &d);
+	exr_free(&d);
+}
+
 int main(int argc, char **argv)
 {
 	double rms = NAN, max = NAN;
 	long long side = 0;
-	const char *names = NULL;
+	const char *names = NULL, *picture = NULL;
 	const struct opt opts[] = {
 		{ "--rms", OPT_REAL, &rms, 0, DBL_MAX, "E", "let the root mean square of the difference be up to E", 0 },
 		{ "--max", OPT_REAL, &max, 0, DBL_MAX, "E", "let no difference be above E", 0 },
 		{ "--block", OPT_INT, &side, 0, EXR_SIDE_MAX, "N", "hold the tolerances against means of N x N pixels", 0 },
 		{ "--channels", OPT_TEXT, &names, 0, 0, "A[,B..]", "compare these channels only", 0 },
+		{ "--difference", OPT_FILE, &picture, 0, 0, "OUT.exr", "write the picture of A - B", 1 },
 		OPT_END
 	};
 	const struct opt_tool tool = { "[OPTION].. A.exr B.exr", "Compare two images: exit 0 if they agree, 1 if they differ.", opts, 0 };
@@ -134,6 +177,8 @@ int main(int argc, char **argv)
 		must_exist(names, &a, &b);
 	struct out out = out_open(NULL, 0);
 	int differ = alone(out.f, names, &a, &b, args.operand[0]) + alone(out.f, names, &b, &a, args.operand[1]) > 0, common = 0;
+	if (isnan(rms) && isnan(max) && !names)
+		differ |= other_sums(out.f, &a, &b) > 0;
 	struct sums all = { 0 };
 	fprintf(out.f, "%-15s %12s %12s %12s %12s %12s %6s %6s\n", "channel", "rms", "relmse", "max", "block_rms", "block_max",
 	        "column", "row");
@@ -161,6 +206,8 @@ int main(int argc, char **argv)
 	if (!common)
 		die(args.operand[1], "has no channel to compare with %s", args.operand[0]);
 	print(out.f, "all", &all);
+	if (picture)
+		write_difference(picture, names, &a, &b, args.history);
 	exr_free(&a);
 	exr_free(&b);
 	out_close(&out);

@@ -3,9 +3,8 @@
 #include "base/opt.h"
 #include "base/out.h"
 #include "base/tab.h"
-#include "image/exr.h"
+#include "render/image.h"
 #include "render/job.h"
-#include "render/kern/film.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,6 +13,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#define SAMPLES 64             /* unless asked for */
 #define BATCH_SECONDS 0.5      /* between two looks at the clock */
 
 static double now(void)
@@ -30,18 +30,19 @@ static void progress(uint32 done, uint32 all, double seconds)
 		fprintf(stderr, "\r%40s\r", "");
 }
 
-/* All samples, in batches that grow to the time between two looks at the clock. */
-static void render(struct job *j, struct cl *cl, uint32 samples, int threads)
+/* Samples [from, to), in batches that grow to the time between two looks at the clock. */
+static void render(struct job *j, struct cl *cl, uint32 from, uint32 to, int threads)
 {
+	uint32 samples = to - from;
 	int visible = isatty(STDERR_FILENO);
 	double start = now();
 	for (uint32 done = 0, batch = 1; done < samples;) {
 		double before = now();
 		batch = batch < samples - done ? batch : samples - done;
 		if (cl)
-			cl_render(cl, done, batch);
+			cl_render(cl, from + done, batch);
 		else
-			render_c(j, done, batch, threads);
+			render_c(j, from + done, batch, threads);
 		done += batch;
 		double took = now() - before;
 		batch = took < BATCH_SECONDS ? batch * 2 : batch > 1 && took > 2 * BATCH_SECONDS ? batch / 2 : batch;
@@ -50,29 +51,19 @@ static void render(struct job *j, struct cl *cl, uint32 samples, int threads)
 	}
 }
 
-static void save(const char *path, const struct job *j, uint32 samples, char *history)
-{
-	struct exr image = { .width = j->scene.width, .height = j->scene.height, .history = history };
-	for (int c = 0; c < 3; c++) {
-		float *out = exr_add(&image, (const char *[]){ "R", "G", "B" }[c]);
-		for (size_t i = 0; i < (size_t)image.width * (size_t)image.height; i++)
-			out[i] = (float)((double)j->film[3 * i + (size_t)c] / FILM_UNIT / samples);
-	}
-	exr_write(path, &image);
-	exr_free(&image);
-}
-
 int main(int argc, char **argv)
 {
-	const char *output = NULL;
-	long long samples = 64, seed = 1, threads = sysconf(_SC_NPROCESSORS_ONLN), device = 0;
-	int transport = -1, attenuation = 0, backend = 0, list = 0, verbose = 0;
+	const char *output = NULL, *part = NULL;
+	long long samples = 0, from = 0, to = 0, seed = 1, threads = sysconf(_SC_NPROCESSORS_ONLN), device = 0;
+	int transport = -1, attenuation = 0, backend = 0, list = 0, verbose = 0, spectral = 0;
 	const struct opt opts[] = {
 		{ "-o", OPT_FILE, &output, 0, 0, "FILE.exr", "the image", 1 },
-		{ "--samples", OPT_INT, &samples, 1, 1e9, "N", "paths a pixel", 0 },
+		{ "--samples", OPT_INT, &samples, 1, IMAGE_SAMPLES, "N", "paths a pixel; default: 64", 1 },
+		{ "--sample-range", OPT_TEXT, &part, 0, 0, "A:B", "render samples A to B - 1 only, for exr-merge", 1 },
 		{ "--seed", OPT_INT, &seed, 0, 4294967295.0, "S", "of the random numbers", 0 },
 		{ "--transport", OPT_CHOICE, &transport, 0, 0, "explicit|fat-ray|grid|continuous", "model of the medium; default: explicit for particles", 0 },
 		{ "--attenuation", OPT_CHOICE, &attenuation, 0, 0, "product|exponential", "of fat rays; exponential is biased", 0 },
+		{ "--spectral", OPT_FLAG, &spectral, 0, 0, NULL, "add a layer for every wavelength", 0 },
 		{ "--backend", OPT_CHOICE, &backend, 0, 0, "c|opencl", "what runs the kernels", 1 },
 		{ "--device", OPT_INT, &device, 0, 63, "I", "OpenCL device", 1 },
 		{ "--list-devices", OPT_FLAG, &list, 0, 0, NULL, "list the OpenCL devices and exit", 1 },
@@ -92,6 +83,13 @@ int main(int argc, char **argv)
 		die(args.operand[1], "one scene at most");
 	if (!output)
 		die("-o", "is needed");
+	const char *bad = part ? image_range(part, &from, &to) : NULL;
+	if (bad)
+		die("--sample-range", "'%s' %s", part, bad);
+	if (part && samples && to > samples)
+		die("--sample-range", "'%s' goes beyond --samples %lld", part, samples);
+	if (!part)
+		to = samples = samples ? samples : SAMPLES;
 	struct scenefile file;
 	struct medium medium;
 	struct job job;
@@ -102,19 +100,27 @@ int main(int argc, char **argv)
 		transport = medium.n_particles ? TRANSPORT_EXPLICIT : TRANSPORT_CONTINUOUS;
 	else if ((transport == TRANSPORT_EXPLICIT || transport == TRANSPORT_FAT_RAY) && !medium.n_particles)
 		die(file.medium, "has no particles, which explicit and fat-ray need; bake it from particles, or render it as grid or continuous");
+	if (spectral && medium.n_waves > IMAGE_WAVES)
+		die("--spectral", "the medium has %d wavelengths; an image has room for %d", medium.n_waves, IMAGE_WAVES);
 	job_make(&job, &file, &medium, transport, attenuation, (uint32)seed);
+	job_film(&job, spectral);
 	if (verbose)
 		warn(file.medium, "%s: %zu particles, %d classes, %d wavelengths, optical depth %.4g along the shortest axis",
 		     (const char *[]){ "explicit", "fat-ray", "grid", "continuous" }[transport], medium.n_particles, medium.n_classes, medium.n_waves,
 		     job.tables.extinction[0] * 2 * fmin(medium.half[0], fmin(medium.half[1], medium.half[2])));
 
 	struct cl *cl = backend ? cl_start(&job, (int)device) : NULL;
-	render(&job, cl, (uint32)samples, (int)threads);
+	render(&job, cl, (uint32)from, (uint32)to, (int)threads);
 	if (cl)
 		cl_finish(cl);
 	if (job.overflow)
 		die(path, "the light is too strong: a pixel's samples sum to more than 2^32; scale the lights down");
-	save(output, &job, (uint32)samples, tab_join(medium.history, file.history, args.history, NULL));
+	struct image image;
+	char *history = tab_join(medium.history, file.history, NULL);
+	image_of(&image, &job, &medium, from, to, samples, history, args.history);
+	image_write(output, &image, part != NULL);
+	image_free(&image);
+	free(history);
 	job_free(&job);
 	medium_close(&medium);
 	scenefile_free(&file);

@@ -115,6 +115,28 @@ static void must(const struct reading *r, exr_result_t code)
 		damaged(r, exr_get_default_error_message(code));
 }
 
+static void read_texts(struct reading *r)
+{
+	const exr_attribute_t *a;
+	int32_t n;
+	must(r, exr_get_attribute_count(r->file, 0, &n));
+	for (int32_t i = 0; i < n; i++) {
+		must(r, exr_get_attribute_by_index(r->file, 0, EXR_ATTR_LIST_FILE_ORDER, i, &a));
+		if (a->type != EXR_ATTR_STRING)
+			continue;
+		int length = a->string->length;
+		char *text = xtext("%.*s", length, a->string->str);
+		if (!strcmp(a->name, "history")) {
+			free(r->image->history);
+			length = (int)strlen(text);
+			r->image->history = xtext("%s%s", text, length && text[length - 1] != '\n' ? "\n" : "");
+		} else {
+			exr_set_text(r->image, a->name, text);
+		}
+		free(text);
+	}
+}
+
 static void read_header(struct reading *r)
 {
 	exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
@@ -122,7 +144,6 @@ static void read_header(struct reading *r)
 	exr_compression_t compression;
 	exr_attr_box2i_t window;
 	const exr_attr_chlist_t *list;
-	const exr_attribute_t *history;
 	int parts;
 
 	init.error_handler_fn = silent;
@@ -166,11 +187,7 @@ static void read_header(struct reading *r)
 		exr_add(r->image, e->name.str);
 		r->image->channel[i].is_uint = e->pixel_type == EXR_PIXEL_UINT;
 	}
-	if (!exr_get_attribute_by_name(r->file, 0, "history", &history) && history->type == EXR_ATTR_STRING) {
-		int n = history->string->length;
-		const char *text = history->string->str;
-		r->image->history = xtext("%.*s%s", n, text, n > 0 && text[n - 1] != '\n' ? "\n" : "");
-	}
+	read_texts(r);
 }
 
 /* Decode a chunk of which the upper left pixel is (x, y), and which has to be width by height. */
@@ -272,6 +289,8 @@ static void write_header(exr_context_t file, const char *name, const struct exr 
 	}
 	if (image->history && *image->history)
 		done(name, exr_attr_set_string(file, part, "history", image->history));
+	for (int i = 0; i < image->n_texts; i++)
+		done(name, exr_attr_set_string(file, part, image->text[i].name, image->text[i].value));
 	done(name, exr_write_header(file));
 }
 
@@ -345,10 +364,39 @@ float *exr_add(struct exr *image, const char *name)
 	return c->data;
 }
 
+void exr_set_text(struct exr *image, const char *name, const char *value)
+{
+	int i = 0;
+	while (i < image->n_texts && strcmp(image->text[i].name, name) < 0)
+		i++;
+	if (i < image->n_texts && !strcmp(image->text[i].name, name)) {
+		free(image->text[i].value);
+	} else {                   /* in the order of the names: bytes depend on content alone */
+		image->text = xgrow(image->text, (size_t)image->n_texts + 1, sizeof *image->text);
+		memmove(image->text + i + 1, image->text + i, (size_t)(image->n_texts - i) * sizeof *image->text);
+		image->text[i].name = xtext("%s", name);
+		image->n_texts++;
+	}
+	image->text[i].value = xtext("%s", value);
+}
+
+const char *exr_text(const struct exr *image, const char *name)
+{
+	for (int i = 0; i < image->n_texts; i++)
+		if (!strcmp(image->text[i].name, name))
+			return image->text[i].value;
+	return NULL;
+}
+
 void exr_free(struct exr *image)
 {
 	for (int i = 0; i < image->n; i++)
 		free(image->channel[i].data);
+	for (int i = 0; i < image->n_texts; i++) {
+		free(image->text[i].name);
+		free(image->text[i].value);
+	}
+	free(image->text);
 	free(image->history);
 	memset(image, 0, sizeof *image);
 }

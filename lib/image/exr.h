@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define EXR_CHANNELS 256
+#define EXR_CHANNELS 1024
 #define EXR_SIDE_MAX 32768
 #define EXR_NAME 64
 
@@ -15,11 +15,17 @@ struct exr_channel {
 	float *data;             /* [height][width], top row first */
 };
 
+struct exr_text {
+	char *name, *value;
+};
+
 struct exr {
 	int width, height;
 	int n;
 	struct exr_channel channel[EXR_CHANNELS];
 	char *history;           /* cmd lines as in tab(5), each ending in a newline: the string attribute "history"; or NULL */
+	int n_texts;
+	struct exr_text *text;   /* the other string attributes */
 };
 
 /* exr_read - read a scan-line or tiled image (path NULL or "-": standard input); half channels become float. Of a tiled image
@@ -38,6 +44,10 @@ const struct exr_channel *exr_find(const struct exr *image, const char *name);
 /* exr_add - append a channel with zeroed pixels and return its data; width and height are set beforehand. Dies where a
  * channel of this name is there already, or there are EXR_CHANNELS. For integers set is_uint of the last channel. */
 float *exr_add(struct exr *image, const char *name);
+
+/* exr_set_text - a string attribute, added or replaced. exr_text: its value, NULL if there is none. */
+void exr_set_text(struct exr *image, const char *name, const char *value);
+const char *exr_text(const struct exr *image, const char *name);
 
 void exr_free(struct exr *image);
 

@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #define DEVICES_MAX 64
-#define N_BUFFERS 13       /* the scene and the tables */
+#define N_BUFFERS 15       /* the scene and the tables */
 
 struct cl {
 	struct job *job;
@@ -129,13 +129,14 @@ struct cl *cl_start(struct job *j, int device)
 		{ t->node, j->n_node * 4 }, { t->theta, j->n_theta * 4 }, { t->p, j->n_p * 4 }, { t->cdf, j->n_cdf * 4 },
 		{ t->particle, j->n_particle * 4 }, { t->first, j->n_first * 4 }, { t->voxel, j->n_voxel * 4 },
 		{ t->count, j->n_count * 4 },
+		{ t->map, j->n_map * 4 }, { t->map_cdf, j->n_map_cdf * 4 },
 	};
 	cl_uint arg = 0;
 	for (; arg < N_BUFFERS; arg++) {
 		c->buffer[arg] = load(c, table[arg].p, table[arg].size);
 		check(clSetKernelArg(c->kernel, arg, sizeof(cl_mem), &c->buffer[arg]), "setting an argument");
 	}
-	size_t size = (size_t)j->scene.width * (size_t)j->scene.height * 3 * sizeof *j->film;
+	size_t size = (size_t)j->scene.width * (size_t)j->scene.height * (size_t)j->scene.film_sums * sizeof *j->film;
 	c->film = clCreateBuffer(c->context, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, size, j->film, &error);
 	check(error, "creating the film");
 	c->overflow = clCreateBuffer(c->context, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, sizeof(cl_int), &j->overflow, &error);
@@ -163,7 +164,7 @@ void cl_render(struct cl *c, uint32 first, uint32 n)
 void cl_finish(struct cl *c)
 {
 	struct job *j = c->job;
-	size_t size = (size_t)j->scene.width * (size_t)j->scene.height * 3 * sizeof *j->film;
+	size_t size = (size_t)j->scene.width * (size_t)j->scene.height * (size_t)j->scene.film_sums * sizeof *j->film;
 	check(clEnqueueReadBuffer(c->queue, c->film, CL_TRUE, 0, size, j->film, 0, NULL, NULL), "reading the film");
 	check(clEnqueueReadBuffer(c->queue, c->overflow, CL_TRUE, 0, sizeof(cl_int), &j->overflow, 0, NULL, NULL), "reading the film");
 	for (int i = 0; i < N_BUFFERS; i++)

@@ -2,6 +2,7 @@
 
 #include "base/die.h"
 #include "render/colour.h"
+#include "render/kern/film.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -41,25 +42,85 @@ static void camera(struct scene *s, const struct scenefile *f)
 	s->height = f->height;
 }
 
-static void lights(struct scene *s, const struct scenefile *f)
+static void to_floats(const double *from, float *to)
 {
-	s->environment = (float)f->environment;
-	for (int i = 0; i < f->n_suns; i++) {
-		struct light *l = &s->light[s->n_lights];
-		double towards[3], half = f->sun[i].angle * M_PI / 360, cap = 2 * pow(sin(half / 2), 2);
-		if (!(f->sun[i].irradiance > 0))
-			continue;
-		for (int k = 0; k < 3; k++)
-			towards[k] = -f->sun[i].direction[k];
-		unit(towards);
-		for (int k = 0; k < 3; k++)
-			l->towards[k] = (float)towards[k];
-		l->cap = (float)cap;
-		l->density = cap > 0 ? (float)(1 / (2 * M_PI * cap)) : 0;
+	for (int i = 0; i < 3; i++)
+		to[i] = (float)from[i];
+}
+
+static int shines(const float *rgb) { return rgb[0] > 0 || rgb[1] > 0 || rgb[2] > 0; }
+
+static struct light sun_light(const struct sun *sun)
+{
+	struct light l = { .kind = LIGHT_SUN };
+	double towards[3], half = sun->angle * M_PI / 360, cap = 2 * pow(sin(half / 2), 2);
+	for (int k = 0; k < 3; k++) {
+		towards[k] = -sun->direction[k];
 		/* the irradiance of a disc of radiance L, perpendicular to its axis, is pi L sin^2 */
-		l->strength = (float)(cap > 0 ? f->sun[i].irradiance / (M_PI * pow(sin(half), 2)) : f->sun[i].irradiance);
-		s->n_lights++;
+		l.rgb[k] = (float)(cap > 0 ? sun->irradiance[k] / (M_PI * pow(sin(half), 2)) : sun->irradiance[k]);
 	}
+	unit(towards);
+	to_floats(towards, l.at);
+	l.cap = (float)cap;
+	l.density = cap > 0 ? (float)(1 / (2 * M_PI * cap)) : 0;
+	return l;
+}
+
+static struct light quad_light(const struct quad *quad, const double *origin)
+{
+	struct light l = { .kind = LIGHT_QUAD };
+	double normal[3], across[3], area = 0;
+	cross(quad->edge[0], quad->edge[1], normal);
+	for (int k = 0; k < 3; k++)
+		area += normal[k] * normal[k];
+	area = sqrt(area);
+	unit(normal);
+	for (int i = 0; i < 2; i++) {
+		/* in the plane, perpendicular to the other edge; its product with its own edge is the area */
+		cross(i ? normal : quad->edge[1], i ? quad->edge[0] : normal, across);
+		for (int k = 0; k < 3; k++)
+			l.dual[i][k] = (float)(across[k] / area);
+		to_floats(quad->edge[i], l.edge[i]);
+	}
+	for (int k = 0; k < 3; k++)
+		l.at[k] = (float)(quad->corner[k] - origin[k]);
+	to_floats(normal, l.normal);
+	to_floats(quad->radiance, l.rgb);
+	l.density = (float)(1 / area);
+	return l;
+}
+
+/* Those that are drawn come first: what is left are quads that only stand in the way. */
+static void lights(struct job *j, const struct scenefile *f)
+{
+	struct scene *s = &j->scene;
+	to_floats(f->environment, s->environment);
+	for (int i = 0; i < f->n_suns; i++) {
+		struct light l = sun_light(&f->sun[i]);
+		if (shines(l.rgb))
+			s->light[s->n_lights++] = l;
+	}
+	uint32 *cdf = NULL;
+	j->n_map_cdf = f->map.width ? map_cdf(&f->map, &cdf) : 0;
+	j->tables.map_cdf = cdf;
+	if (j->n_map_cdf) {
+		s->map_width = f->map.width;
+		s->map_height = f->map.height;
+		s->map_angle = (float)(4 * M_PI / s->map_width * sin(M_PI / 2 / s->map_height));
+		s->light[s->n_lights++] = (struct light){ .kind = LIGHT_MAP };
+		j->tables.map = f->map.rgb;
+		j->n_map = 3 * (size_t)s->map_width * (size_t)s->map_height;
+	}
+	for (int dark = 0; dark < 2; dark++) {
+		for (int i = 0; i < f->n_quads; i++) {
+			struct light l = quad_light(&f->quad[i], f->medium_position);
+			if (shines(l.rgb) == !dark)
+				s->light[s->n_lights++] = l;
+		}
+		if (!dark)
+			s->n_drawn = s->n_lights;
+	}
+	s->pick = s->n_drawn ? 1.f / (float)s->n_drawn : 0;
 	s->has_ground = f->has_ground;
 	s->ground_height = (float)(f->ground_height - f->medium_position[1]);
 	s->ground_albedo = (float)f->ground_albedo;
@@ -91,7 +152,7 @@ static void optics(struct job *j, const struct medium *m)
 	if (wrong)
 		die("medium", "%s", wrong);
 	j->tables = (struct tables){ extinction, disc, albedo, &colour[0][0], m->node, m->theta, m->p, m->cdf, m->particle, m->first,
-		NULL, NULL };
+		NULL, NULL, NULL, NULL };
 	j->n_extinction = waves;
 	j->n_disc = classes * waves;
 	j->n_albedo = (classes + 1) * waves;
@@ -157,9 +218,9 @@ void job_make(struct job *j, const struct scenefile *file, const struct medium *
 	s->transport = transport;
 	s->attenuation = attenuation;
 	camera(s, file);
-	lights(s, file);
 	optics(j, medium);
 	voxels(j, medium);
+	lights(j, file);
 	s->n_waves = medium->n_waves;
 	s->n_groups = (medium->n_waves + MAX_WAVES - 1) / MAX_WAVES;
 	s->n_classes = medium->n_classes;
@@ -171,7 +232,23 @@ void job_make(struct job *j, const struct scenefile *file, const struct medium *
 		s->cell[a] = medium->cell[a];
 		s->grid_high[a] = (float)(medium->low[a] + (double)medium->cells[a] * medium->cell[a]);
 	}
-	j->film = xalloc((size_t)file->width * (size_t)file->height * 3, sizeof *j->film);
+}
+
+void job_film(struct job *j, int spectral)
+{
+	struct scene *s = &j->scene;
+	double eye = 0, corner = 0;
+	int exponent;
+	for (int a = 0; a < 3; a++) {
+		double most = fmax(s->extent[s->round ? 0 : a], s->cells[a] ? fmax(-s->grid_low[a], s->grid_high[a]) : 0);
+		eye += (double)s->eye[a] * s->eye[a];
+		corner += most * most;
+	}
+	frexp(sqrt(eye) + sqrt(corner), &exponent);
+	s->depth_scale = (float)ldexp(1, -exponent);
+	s->spectral = spectral;
+	s->film_sums = FILM_SUMS + (spectral ? s->n_waves : 0);
+	j->film = xalloc((size_t)s->width * (size_t)s->height, (size_t)s->film_sums * sizeof *j->film);
 }
 
 void job_free(struct job *j)
@@ -181,5 +258,6 @@ void job_free(struct job *j)
 	free((void *)(size_t)j->tables.albedo);
 	free((void *)(size_t)j->tables.colour);
 	free(j->voxel);
+	free((void *)(size_t)j->tables.map_cdf);
 	free(j->film);
 }

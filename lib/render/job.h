@@ -13,15 +13,19 @@ struct job {
 	struct scene scene;
 	struct tables tables;
 	/* elements of each table, in the order of struct tables */
-	size_t n_extinction, n_disc, n_albedo, n_colour, n_node, n_theta, n_p, n_cdf, n_particle, n_first, n_voxel, n_count;
+	size_t n_extinction, n_disc, n_albedo, n_colour, n_node, n_theta, n_p, n_cdf, n_particle, n_first, n_voxel, n_count,
+		n_map, n_map_cdf;
 	float *voxel;              /* extinctions in cubes, made here */
-	int64 *film;               /* [pixel][3] sums in units of 2^-30 */
+	int64 *film;               /* [pixel][scene.film_sums], see kern/film.h */
 	int overflow;              /* a sum went beyond the film's limit */
 };
 
 /* job_make - the tables point into the medium where they can. Dies when the wavelengths make no colour.
  * transport, attenuation: as in the kernels' scene.h. */
 void job_make(struct job *j, const struct scenefile *file, const struct medium *medium, int transport, int attenuation, uint32 seed);
+
+/* job_film - an empty film; spectral: with sums for every wavelength. */
+void job_film(struct job *j, int spectral);
 
 void job_free(struct job *j);
 

@@ -114,33 +114,17 @@ static void camera(const char *path, config_setting_t *g, struct scenefile *s)
 		bad(path, g, "position, target and up do not span a view");
 }
 
-static void light(const char *path, config_setting_t *g, struct scenefile *s)
+/* A strength: one number for white, or linear RGB. */
+static void strength(const char *path, config_setting_t *group, const char *name, double *rgb)
 {
-	const char *type = NULL;
-	if (!config_setting_is_group(g))
-		bad(path, g, "a light is a group { type = ..; }");
-	config_setting_t *t = need(path, g, "type");
-	type = config_setting_get_string(t);
-	if (type && !strcmp(type, "environment")) {
-		only(path, g, "type radiance");
-		s->environment += number(path, g, "radiance", 0, 1e9);
-	} else if (type && !strcmp(type, "sun")) {
-		only(path, g, "type direction irradiance angle");
-		if (s->n_suns == MAX_LIGHTS)
-			bad(path, g, "more than %d suns", MAX_LIGHTS);
-		struct sun *sun = &s->sun[s->n_suns++];
-		config_setting_t *direction = need(path, g, "direction");
-		numbers(path, direction, 3, sun->direction);
-		double length = fabs(sun->direction[0]) + fabs(sun->direction[1]) + fabs(sun->direction[2]);
-		if (!(length > 1e-9 && length < 1e9))
-			bad(path, direction, "direction must have a length from 1e-9 to 1e9");
-		sun->irradiance = number(path, g, "irradiance", 0, 1e9);
-		sun->angle = config_setting_get_member(g, "angle") ? number(path, g, "angle", 0, 180) : 0;
-		if (sun->angle > 0 && sun->angle < 0.01)
-			bad(path, g, "angle is 0 (parallel light) or at least 0.01 degrees");
-	} else {
-		bad(path, t, "type must be \"environment\" or \"sun\"");
-	}
+	config_setting_t *s = need(path, group, name);
+	if (config_setting_is_aggregate(s))
+		numbers(path, s, 3, rgb);
+	else
+		rgb[0] = rgb[1] = rgb[2] = value(path, s);
+	for (int i = 0; i < 3; i++)
+		if (!(rgb[i] >= 0 && rgb[i] <= 1e9))
+			bad(path, s, "%s %g is out of range (0 to 1e+09)", name, rgb[i]);
 }
 
 /* The scene's folder and a relative name make a path. */
@@ -153,6 +137,79 @@ static char *beside(const char *scene, const char *name)
 	return path;
 }
 
+static void sun(const char *path, config_setting_t *g, struct sun *sun)
+{
+	only(path, g, "type direction irradiance angle");
+	config_setting_t *direction = need(path, g, "direction");
+	numbers(path, direction, 3, sun->direction);
+	double length = fabs(sun->direction[0]) + fabs(sun->direction[1]) + fabs(sun->direction[2]);
+	if (!(length > 1e-9))
+		bad(path, direction, "direction must be longer than 1e-9");
+	strength(path, g, "irradiance", sun->irradiance);
+	sun->angle = config_setting_get_member(g, "angle") ? number(path, g, "angle", 0, 180) : 0;
+	if (sun->angle > 0 && sun->angle < 0.01)
+		bad(path, g, "angle is 0 (parallel light) or at least 0.01 degrees");
+}
+
+static void quad(const char *path, config_setting_t *g, struct quad *quad)
+{
+	double *a = quad->edge[0], *b = quad->edge[1], normal2 = 0, a2 = 0, b2 = 0;
+	only(path, g, "type corner edge1 edge2 radiance");
+	numbers(path, need(path, g, "corner"), 3, quad->corner);
+	numbers(path, need(path, g, "edge1"), 3, a);
+	numbers(path, need(path, g, "edge2"), 3, b);
+	strength(path, g, "radiance", quad->radiance);
+	for (int i = 0; i < 3; i++) {
+		normal2 += pow(a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3], 2);
+		a2 += a[i] * a[i];
+		b2 += b[i] * b[i];
+	}
+	if (!(a2 > 1e-24 && a2 < 1e18 && b2 > 1e-24 && b2 < 1e18 && normal2 > 1e-8 * a2 * b2))
+		bad(path, g, "edge1 and edge2 do not span a quad (from 1e-12 to 1e9 m, at an angle above 1e-4)");
+}
+
+static void light(const char *path, config_setting_t *g, struct scenefile *s)
+{
+	double rgb[3] = { 1, 1, 1 };
+	if (!config_setting_is_group(g))
+		bad(path, g, "a light is a group { type = ..; }");
+	config_setting_t *t = need(path, g, "type"), *file = config_setting_get_member(g, "file");
+	const char *type = config_setting_get_string(t);
+	int sky = type && !strcmp(type, "environment");
+	if ((!sky || file) && s->n_suns + s->n_quads + (s->map.width > 0) == MAX_LIGHTS)
+		bad(path, g, "more than %d suns, quads and maps", MAX_LIGHTS);
+	if (sky && file) {
+		only(path, g, "type file radiance");
+		const char *name = config_setting_get_string(file);
+		if (!name || !*name)
+			bad(path, file, "file must be a string");
+		if (s->map.width)
+			bad(path, g, "a second environment map");
+		if (config_setting_get_member(g, "radiance"))
+			strength(path, g, "radiance", rgb);
+		char *map = beside(path, name);
+		map_read(map, rgb, &s->map);
+		free(map);
+	} else if (sky) {
+		only(path, g, "type radiance file");
+		strength(path, g, "radiance", rgb);
+		for (int i = 0; i < 3; i++)
+			s->environment[i] += rgb[i];
+	} else if (type && !strcmp(type, "sun")) {
+		sun(path, g, &s->sun[s->n_suns++]);
+	} else if (type && !strcmp(type, "quad")) {
+		quad(path, g, &s->quad[s->n_quads++]);
+	} else {
+		bad(path, t, "type must be \"environment\", \"sun\" or \"quad\"");
+	}
+}
+
+static void list(FILE *f, int n, const double *v)
+{
+	for (int i = 0; i < n; i++)
+		fprintf(f, "%c%.9g", i ? ',' : ' ', v[i]);
+}
+
 static char *canonical(const struct scenefile *s)
 {
 	char *text, *end;
@@ -163,10 +220,25 @@ static char *canonical(const struct scenefile *s)
 	fprintf(f, "scene camera %.9g,%.9g,%.9g %.9g,%.9g,%.9g %.9g,%.9g,%.9g %.9g %dx%d medium %.9g,%.9g,%.9g", s->position[0],
 	        s->position[1], s->position[2], s->target[0], s->target[1], s->target[2], s->up[0], s->up[1], s->up[2], s->fov, s->width,
 	        s->height, s->medium_position[0], s->medium_position[1], s->medium_position[2]);
-	fprintf(f, " environment %.9g", s->environment);
-	for (int i = 0; i < s->n_suns; i++)
-		fprintf(f, " sun %.9g,%.9g,%.9g %.9g %.9g", s->sun[i].direction[0], s->sun[i].direction[1], s->sun[i].direction[2],
-		        s->sun[i].irradiance, s->sun[i].angle);
+	fprintf(f, " environment");
+	list(f, 3, s->environment);
+	for (int i = 0; i < s->n_suns; i++) {
+		fprintf(f, " sun");
+		list(f, 3, s->sun[i].direction);
+		list(f, 3, s->sun[i].irradiance);
+		list(f, 1, &s->sun[i].angle);
+	}
+	for (int i = 0; i < s->n_quads; i++) {
+		fprintf(f, " quad");
+		list(f, 3, s->quad[i].corner);
+		list(f, 3, s->quad[i].edge[0]);
+		list(f, 3, s->quad[i].edge[1]);
+		list(f, 3, s->quad[i].radiance);
+	}
+	if (s->map.width) {
+		fprintf(f, " map %dx%d crc %08x", s->map.width, s->map.height, s->map.crc);
+		list(f, 3, s->map.scale);
+	}
 	if (s->has_ground)
 		fprintf(f, " ground %.9g %.9g", s->ground_height, s->ground_albedo);
 	fclose(f);
@@ -213,7 +285,7 @@ void scenefile_read(const char *path, struct scenefile *s)
 
 	lights = config_setting_get_member(root, "lights");
 	if (!lights)
-		s->environment = 1;
+		s->environment[0] = s->environment[1] = s->environment[2] = 1;
 	else if (!config_setting_is_list(lights))
 		bad(path, lights, "lights must be a list ( {..}, {..} )");
 	for (int i = 0; lights && i < config_setting_length(lights); i++)
@@ -233,5 +305,6 @@ void scenefile_read(const char *path, struct scenefile *s)
 void scenefile_free(struct scenefile *s)
 {
 	free(s->medium);
+	free(s->map.rgb);
 	free(s->history);
 }

@@ -2,12 +2,17 @@
 #ifndef RENDER_SCENEFILE_H
 #define RENDER_SCENEFILE_H
 
-#include "render/kern/scene.h"
+#include "render/map.h"
 
 struct sun {
 	double direction[3];       /* the way the light travels */
-	double irradiance;         /* perpendicular to the beam */
+	double irradiance[3];      /* perpendicular to the beam */
 	double angle;              /* degrees across */
+};
+
+struct quad {
+	double corner[3], edge[2][3];
+	double radiance[3];        /* to the side of edge[0] x edge[1] */
 };
 
 struct scenefile {
@@ -17,9 +22,11 @@ struct scenefile {
 	double medium_position[3];
 	int has_ground;
 	double ground_height, ground_albedo;
-	double environment;
-	int n_suns;
+	double environment[3];     /* linear RGB, as all strengths */
+	int n_suns, n_quads;
 	struct sun sun[MAX_LIGHTS];
+	struct quad quad[MAX_LIGHTS];
+	struct map map;
 	char *history;             /* one line: the scene in canonical form, without file names */
 };
 

@@ -13,6 +13,7 @@
 #define GLOBAL __global
 typedef long int64;
 typedef uint uint32;
+typedef ulong uint64;
 FN float bits_float(uint32 x) { return as_float(x); }
 FN uint32 float_bits(float x) { return as_uint(x); }
 FN float root(float x) { return sqrt(x); }
@@ -23,6 +24,7 @@ FN float root(float x) { return sqrt(x); }
 #define GLOBAL
 typedef int64_t int64;
 typedef uint32_t uint32;
+typedef uint64_t uint64;
 FN float bits_float(uint32 x) { float f; memcpy(&f, &x, 4); return f; }
 FN uint32 float_bits(float x) { uint32 u; memcpy(&u, &x, 4); return u; }
 FN float root(float x) { return __builtin_sqrtf(x); }

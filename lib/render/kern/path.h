@@ -7,7 +7,7 @@
 #ifndef KERN_PATH_H
 #define KERN_PATH_H
 
-#include "render/kern/medium.h"
+#include "render/kern/light.h"
 #include "render/kern/phase.h"
 #include "render/kern/random.h"
 
@@ -18,17 +18,40 @@ struct path {
 	float weight[MAX_WAVES], density[MAX_WAVES];
 	float chance;              /* density of the ray's direction, sr^-1; 0 from the camera, where no light is drawn */
 	struct random random;
-	float rgb[3];
+	float rgb[3];              /* seen since the medium last scattered the path */
+	int order;                 /* times that it did, from 2 on 2; reflections by surfaces do not count */
+	float before[2][3];        /* what was seen unscattered, and scattered once, of an order that is over */
+	float depth;               /* along the camera's ray to where the medium scattered it, -1 if it did not */
+	float spectrum[MAX_WAVES]; /* all that was seen, by wavelength */
 };
 
 enum { DRAW_FLIGHT, DRAW_CLASS, DRAW_ANGLE, DRAW_AZIMUTH, DRAW_ROULETTE, DRAW_LIGHT, DRAW_LIGHT_1, DRAW_LIGHT_2 };
 enum { DRAW_PIXEL_X, DRAW_PIXEL_Y, DRAW_HERO, DRAW_GROUP };
 
-FN void see(const struct tables *tab, struct path *p, int j, float radiance)
+/* A light's colour multiplies the film's channels, so that it is seen as it is, whatever the wavelengths. */
+FN void see(const struct tables *tab, struct path *p, int j, float k, const float *rgb)
 {
 	GLOBAL const float *c = tab->colour + 3 * wave_of(p->waves, j);
+	float seen = p->weight[j] * k;
 	for (int i = 0; i < 3; i++)
-		p->rgb[i] += c[i] * (p->weight[j] * radiance);
+		p->rgb[i] += c[i] * (seen * rgb[i]);
+	p->spectrum[j] += seen * rgb[1];
+}
+
+/* The medium scatters the path: what it sees from here on belongs to the next order. */
+FN void scattered(struct path *p, struct vec point)
+{
+	if (p->chance == 0.f) {    /* the camera's ray */
+		struct vec d = sub(point, p->ray.from);
+		p->depth = root(dot3(d, d));
+	}
+	if (p->order == 2)
+		return;
+	for (int i = 0; i < 3; i++) {
+		p->before[p->order][i] = p->rgb[i];
+		p->rgb[i] = 0.f;
+	}
+	p->order++;
 }
 
 /* Take event[j] into the densities; returns its mean over the wavelengths, 0 if the path cannot be (it then ends). */
@@ -65,46 +88,39 @@ FN struct path path_begin(const struct scene *s, uint32 pixel, uint32 sample)
 	for (int j = 0; j < MAX_WAVES; j++) {
 		p.weight[j] = (float)s->n_groups;
 		p.density[j] = 1.f;
+		p.spectrum[j] = 0.f;
 	}
 	p.chance = 0.f;
-	p.rgb[0] = p.rgb[1] = p.rgb[2] = 0.f;
+	p.depth = -1.f;
+	p.order = 0;
+	for (int i = 0; i < 3; i++)
+		p.rgb[i] = p.before[0][i] = p.before[1][i] = 0.f;
 	next_vertex(&p.random);
 	return p;
 }
 
-FN float ground_distance(const struct scene *s, struct ray r)
+/* What ends a path that did not scatter: a quad at distance t, or what lies behind everything. */
+FN void see_end(const struct scene *s, const struct tables *tab, struct path *p, int surface, float t)
 {
-	float t = s->has_ground ? (s->ground_height - r.from.y) * inverse(r.along.y) : FAR;
-	return t > 0.f ? t : FAR;
-}
-
-/* What lies behind everything: the environment, and suns that the ray meets by chance, weighed against drawing them. */
-FN void see_sky(const struct scene *s, const struct tables *tab, struct path *p, float chance)
-{
-	float radiance = s->environment;
-	for (int i = 0; i < s->n_lights; i++) {
-		struct vec off = sub(p->ray.along, load3(s->light[i].towards));
-		if (dot3(off, off) <= 2.f * s->light[i].cap && s->light[i].cap > 0.f) {
-			float drawn = s->light[i].density / (float)s->n_lights;
-			radiance += s->light[i].strength * (p->chance > 0.f ? chance / (chance + drawn) : 1.f);
-		}
-	}
+	float rgb[3];
+	if (surface == NONE)
+		sky_seen(s, tab, p->ray.along, p->chance, rgb);
+	else
+		quad_seen(s, surface, p->ray, t, p->chance, rgb);
 	for (int j = 0; j < p->waves.n; j++)
-		see(tab, p, j, p->density[j] * radiance);
+		see(tab, p, j, p->density[j], rgb);
 }
 
 /* Next-event estimation at a vertex: class NONE is the ground, on the side of normal. */
 FN void see_light(const struct scene *s, const struct tables *tab, struct path *p, struct vec point, int class, int id, float normal)
 {
-	if (!s->n_lights)
+	struct drawn d;
+	if (!s->n_drawn)
 		return;
-	int i = (int)(draw(&p->random, DRAW_LIGHT) * (float)s->n_lights);
-	const struct light *l = &s->light[i];
-	struct ray r = { point, load3(l->towards), id, p->ray.area };
-	if (l->cap > 0.f) {        /* uniform over the disc, in 1 - cos */
-		float c = l->cap * draw(&p->random, DRAW_LIGHT_1);
-		r.along = around(r.along, root(c * (2.f - c)), 1.f - c, 2.f * PI * draw(&p->random, DRAW_LIGHT_2));
-	}
+	int i = (int)(draw(&p->random, DRAW_LIGHT) * (float)s->n_drawn);
+	if (!light_draw(s, tab, i, point, draw_bits(&p->random, DRAW_LIGHT_1), draw_bits(&p->random, DRAW_LIGHT_2), &d))
+		return;
+	struct ray r = { point, d.along, id, p->ray.area };
 	float value[MAX_WAVES] = { 0.f }, through[MAX_WAVES], chance = 0.f;
 	if (class == NONE) {
 		for (int j = 0; j < p->waves.n; j++)
@@ -115,18 +131,18 @@ FN void see_light(const struct scene *s, const struct tables *tab, struct path *
 		struct at_angle a = phase_locate(tab, class, angle_between(p->ray.along, r.along));
 		for (int j = 0; j < p->waves.n; j++)
 			value[j] = phase_value(tab, s->n_waves, a, wave_of(p->waves, j));
-		if (ground_distance(s, r) < FAR)
-			return;
 	}
-	transmittance(s, tab, r, FAR, p->waves, through);
+	if (light_blocked(s, r, &d))
+		return;
+	transmittance(s, tab, r, d.t_end, p->waves, through);
 	for (int j = 0; j < p->waves.n; j++) {
-		value[j] *= p->density[j] * through[j];
+		value[j] *= p->density[j];
 		chance += value[j];
 	}
 	chance /= (float)p->waves.n;
-	float k = l->strength * (l->cap > 0.f ? 1.f / (l->density / (float)s->n_lights + chance) : (float)s->n_lights);
+	float k = d.density > 0.f ? 1.f / (d.density + chance) : (float)s->n_drawn;
 	for (int j = 0; j < p->waves.n; j++)
-		see(tab, p, j, value[j] * k);
+		see(tab, p, j, value[j] * through[j] * k, d.rgb);
 }
 
 /* Roulette on the throughput: survival is certain above 1/4, and 4 times the throughput below, never less than it. */
@@ -149,21 +165,23 @@ FN int survives(struct path *p)
 FN int path_bounce(const struct scene *s, const struct tables *tab, struct path *p)
 {
 	float event[MAX_WAVES];
-	float t_ground = ground_distance(s, p->ray);
-	struct collision c = free_flight(s, tab, p->ray, t_ground, p->waves, p->hero, &p->random, DRAW_FLIGHT, event);
-	float mean = take_event(p, event);
-	if (!(mean > 0.f))
+	int surface;
+	float t_end = surface_distance(s, p->ray, &surface);
+	struct collision c = free_flight(s, tab, p->ray, t_end, p->waves, p->hero, &p->random, DRAW_FLIGHT, event);
+	if (!(take_event(p, event) > 0.f))
 		return 0;
-	if (!c.happened && !(t_ground < FAR)) {
-		see_sky(s, tab, p, p->chance * mean);
+	if (!c.happened && surface != GROUND) {
+		see_end(s, tab, p, surface, t_end);
 		return 0;
 	}
 	struct vec point = c.point;
 	int class = c.happened ? c.class : NONE;
 	float normal = p->ray.along.y < 0.f ? 1.f : -1.f;
 	if (class == NONE) {
-		point = add(p->ray.from, scale(p->ray.along, t_ground));
+		point = add(p->ray.from, scale(p->ray.along, t_end));
 		point.y = s->ground_height;
+	} else {
+		scattered(p, point);
 	}
 	for (int j = 0; j < p->waves.n; j++)
 		p->weight[j] *= class == NONE ? s->ground_albedo : tab->albedo[class * s->n_waves + wave_of(p->waves, j)];

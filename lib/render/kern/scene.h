@@ -11,11 +11,17 @@
 enum { TRANSPORT_EXPLICIT, TRANSPORT_FAT_RAY, TRANSPORT_GRID, TRANSPORT_CONTINUOUS };
 enum { ATTENUATION_PRODUCT, ATTENUATION_EXPONENTIAL };
 
-struct light {                     /* a sun */
-	float towards[3];          /* unit vector to its centre */
-	float cap;                 /* 1 - cos of its angular radius; 0: parallel */
-	float strength;            /* radiance, of a parallel sun irradiance */
-	float density;             /* of the directions drawn over the disc, sr^-1 */
+enum { LIGHT_SUN, LIGHT_QUAD, LIGHT_MAP };
+
+struct light {
+	int kind;
+	float rgb[3];              /* radiance, of a parallel sun irradiance; a map has its own */
+	float at[3];               /* sun: unit vector to its centre; quad: corner */
+	float cap;                 /* sun: 1 - cos of its angular radius; 0: parallel */
+	float density;             /* sun: of the directions drawn over the disc, sr^-1; quad: of its points, m^-2 */
+	float edge[2][3];          /* quad: from the corner */
+	float dual[2][3];          /* quad: in its plane, dual[i] . edge[j] = 1 where i = j, else 0; m^-1 */
+	float normal[3];           /* quad: unit vector to the side that shines */
 };
 
 struct scene {
@@ -36,9 +42,15 @@ struct scene {
 	float voxel_low[3], voxel_high[3], voxel[3];
 	int has_ground;
 	float ground_height, ground_albedo;
-	float environment;         /* radiance */
-	int n_lights;
+	float environment[3];      /* radiance, the same all around */
+	int n_lights, n_drawn;     /* lights and quads; the first n_drawn shine and are drawn, each with probability pick */
+	float pick;
+	int map_width, map_height;
+	float map_angle;           /* solid angle of a texel / sin of the polar angle of its centre, sr */
 	struct light light[MAX_LIGHTS];
+	int film_sums;             /* of a pixel: FILM_SUMS, and one a wavelength if spectral */
+	int spectral;
+	float depth_scale;         /* a power of 2: depths times this are below 1 */
 };
 
 struct tables {
@@ -54,6 +66,8 @@ struct tables {
 	GLOBAL const uint32 *first;      /* [cell] its first particle; one more at the end */
 	GLOBAL const float *voxel;       /* [voxel][wave] extinction, m^-1; or [node], density relative to extinction[] */
 	GLOBAL const uint32 *count;      /* [voxel][class] particles */
+	GLOBAL const float *map;         /* [row][column][3] radiance */
+	GLOBAL const uint32 *map_cdf;    /* [row + 1] of the rows, then [row][column + 1] of each row's texels, in units of 2^-31 */
 };
 
 #endif

@@ -1,0 +1,309 @@
+#include "render/image.h"
+
+#include "base/die.h"
+#include "base/tab.h"
+#include "base/unit.h"
+#include "render/kern/film.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Names of the sums; those up to SUM_ALPHA, divided by the unit and the samples, are finished channels. */
+static const char *const names[FILM_SUMS] = { "R", "G", "B", "single.R", "single.G", "single.B", "multiple.R", "multiple.G",
+	"multiple.B", "A", "depth.Z", "Y", "YY0", "YY1" };
+
+typedef unsigned __int128 uint128;
+
+static size_t pixels(const struct image *m)
+{
+	return (size_t)m->width * (size_t)m->height;
+}
+
+static long long samples(const struct image *m)
+{
+	long long n = 0;
+	for (int i = 0; i < m->n_ranges; i++)
+		n += m->range[i][1] - m->range[i][0];
+	return n;
+}
+
+/* -------------------------------------------------------------------- ranges of samples */
+
+const char *image_range(const char *text, long long *from, long long *to)
+{
+	char *copy = xtext("%s", text), *colon = strchr(copy, ':');
+	const char *bad = "is not A:B, samples A to B - 1";
+	if (colon) {
+		*colon = 0;
+		bad = unit_int(copy, from) || unit_int(colon + 1, to) ? bad : *from < 0 || *to <= *from ? "is an empty range of samples"
+		    : *to > IMAGE_SAMPLES ? "goes beyond 1e9 samples" : NULL;
+	}
+	free(copy);
+	return bad;
+}
+
+static char *ranges_text(const struct image *m)
+{
+	char *text = xtext("%s", "");
+	for (int i = 0; i < m->n_ranges; i++) {
+		char *longer = xtext("%s%s%lld:%lld", text, i ? "," : "", m->range[i][0], m->range[i][1]);
+		free(text);
+		text = longer;
+	}
+	if (m->total) {
+		char *longer = xtext("%s of %lld", text, m->total);
+		free(text);
+		text = longer;
+	}
+	return text;
+}
+
+static int ascending(const void *a, const void *b)
+{
+	const long long *x = a, *y = b;
+	return (*x > *y) - (*x < *y);
+}
+
+/* Sort, and join those that touch; 0 if some overlap. */
+static int tidy(struct image *m)
+{
+	int n = 0;
+	qsort(m->range, (size_t)m->n_ranges, sizeof *m->range, ascending);
+	for (int i = 0; i < m->n_ranges; i++) {
+		if (n && m->range[i][0] < m->range[n - 1][1])
+			return 0;
+		if (n && m->range[i][0] == m->range[n - 1][1]) {
+			m->range[n - 1][1] = m->range[i][1];
+		} else {
+			memmove(m->range[n], m->range[i], sizeof *m->range);
+			n++;
+		}
+	}
+	m->n_ranges = n;
+	return 1;
+}
+
+/* What ranges_text wrote, to the letter; 0 if it is anything else. */
+static int ranges_read(const char *text, struct image *m)
+{
+	char *copy = xtext("%s", text), *of = strstr(copy, " of "), *save = NULL;
+	int good = !of || !unit_int(of + 4, &m->total);
+	if (of)
+		*of = 0;
+	for (char *word = strtok_r(copy, ",", &save); word && good; word = strtok_r(NULL, ",", &save)) {
+		m->range = xgrow(m->range, (size_t)m->n_ranges + 1, sizeof *m->range);
+		good = !image_range(word, &m->range[m->n_ranges][0], &m->range[m->n_ranges][1]);
+		m->n_ranges++;
+	}
+	free(copy);
+	good = good && m->n_ranges && tidy(m) && (!m->total || m->range[m->n_ranges - 1][1] <= m->total);
+	copy = ranges_text(m);
+	good = good && !strcmp(copy, text);
+	free(copy);
+	return good;
+}
+
+int image_whole(const struct image *m)
+{
+	return m->n_ranges == 1 && m->range[0][0] == 0 && (!m->total || m->range[0][1] == m->total);
+}
+
+/* -------------------------------------------------------------------- from the renderer */
+
+void image_of(struct image *out, struct job *j, const struct medium *m, long long from, long long to, long long total,
+              const char *history, const char *command)
+{
+	char *line = total ? xtext("%s --samples %lld", command, total) : xtext("%s", command);
+	*out = (struct image){ .width = j->scene.width, .height = j->scene.height, .n_sums = j->scene.film_sums, .sum = j->film,
+		.n_waves = j->scene.spectral ? m->n_waves : 0, .depth_exponent = -ilogbf(j->scene.depth_scale), .n_ranges = 1,
+		.total = total, .history = tab_join(history, line, NULL) };
+	j->film = NULL;
+	free(line);
+	out->range = xalloc(1, sizeof *out->range);
+	out->range[0][0] = from;
+	out->range[0][1] = to;
+	out->wave = xalloc((size_t)out->n_waves, sizeof *out->wave);
+	for (int w = 0; w < out->n_waves; w++) {
+		snprintf(out->wave[w], EXR_NAME, "S0.%.6fnm", m->wavelength[w] * 1000);
+		*strrchr(out->wave[w], '.') = ',';
+	}
+}
+
+/* -------------------------------------------------------------------- finished layers */
+
+/* Variance of the mean of n samples, from their sum and the sum of their squares: about a whole number near the mean, in
+ * integers, so that nothing cancels. 0 of a single sample. */
+static double variance(const int64 *sum, long long n)
+{
+	int64 y = sum[SUM_LUMINANCE], mean = y / n, rest = y - mean * n;
+	uint128 squares = (uint128)(uint64)sum[SUM_SQUARE + 1] << 64 | (uint64)sum[SUM_SQUARE];
+	squares += (uint128)n * (uint128)((__int128)mean * mean) - 2 * (uint128)((__int128)mean * y);    /* modulo 2^128 */
+	double spread = (double)squares - (double)rest * (double)rest / (double)n;
+	return n > 1 && spread > 0 ? spread / ((double)n * (double)(n - 1)) / (FILM_UNIT * FILM_UNIT) : 0;
+}
+
+static void layers(struct exr *e, const struct image *m)
+{
+	long long n = samples(m);
+	size_t stride = (size_t)m->n_sums;
+	for (int c = 0; c <= SUM_ALPHA; c++) {
+		float *out = exr_add(e, names[c]);
+		for (size_t i = 0; i < pixels(m); i++)
+			out[i] = (float)((double)m->sum[i * stride + (size_t)c] / FILM_UNIT / (double)n);
+	}
+	for (int w = 0; w < m->n_waves; w++) {
+		float *out = exr_add(e, m->wave[w]);
+		for (size_t i = 0; i < pixels(m); i++)
+			out[i] = (float)((double)m->sum[i * stride + FILM_SUMS + (size_t)w] / FILM_UNIT / (double)n);
+	}
+	float *depth = exr_add(e, "depth.Z"), *spread = exr_add(e, "variance.Y"), *count = exr_add(e, "count");
+	e->channel[e->n - 1].is_uint = 1;
+	for (size_t i = 0; i < pixels(m); i++) {
+		const int64 *sum = m->sum + i * stride;
+		depth[i] = sum[SUM_ALPHA] ? (float)ldexp((double)sum[SUM_DEPTH] / (double)sum[SUM_ALPHA], m->depth_exponent) : 0;
+		spread[i] = (float)variance(sum, n);
+		memcpy(&count[i], &(uint32_t){ (uint32_t)n }, 4);
+	}
+}
+
+/* -------------------------------------------------------------------- sums, each as two channels of 32 bits */
+
+static char *half_name(const struct image *m, int sum, int half)
+{
+	return xtext("sum.%s.%s", sum < FILM_SUMS ? names[sum] : m->wave[sum - FILM_SUMS], half ? "hi" : "lo");
+}
+
+static void put_sums(struct exr *e, const struct image *m)
+{
+	for (int k = 0; k < 2 * m->n_sums; k++) {
+		char *name = half_name(m, k / 2, k % 2);
+		float *out = exr_add(e, name);
+		e->channel[e->n - 1].is_uint = 1;
+		for (size_t i = 0; i < pixels(m); i++) {
+			uint32_t bits = (uint32_t)((uint64)m->sum[i * (size_t)m->n_sums + (size_t)k / 2] >> (k % 2 ? 32 : 0));
+			memcpy(&out[i], &bits, 4);
+		}
+		free(name);
+	}
+}
+
+static void get_sums(const char *path, const struct exr *e, struct image *m)
+{
+	for (int k = 0; k < 2 * m->n_sums; k++) {
+		char *name = half_name(m, k / 2, k % 2);
+		const struct exr_channel *c = exr_find(e, name);
+		if (!c || !c->is_uint)
+			die(path, "damaged image: lacks the integer channel %s", name);
+		for (size_t i = 0; i < pixels(m); i++) {
+			uint32_t bits;
+			memcpy(&bits, &c->data[i], 4);
+			int64 *sum = &m->sum[i * (size_t)m->n_sums + (size_t)k / 2];
+			*sum = (int64)((uint64)*sum | (uint64)bits << (k % 2 ? 32 : 0));
+		}
+		free(name);
+	}
+}
+
+/* Are all the sums of a pixel in range? */
+static int in_range(const int64 *sum, int n)
+{
+	const int64 limit = (int64)1 << 62;
+	for (int c = 0; c < n; c++)
+		if (c == SUM_SQUARE + 1 ? sum[c] < 0 : c != SUM_SQUARE && (sum[c] > limit || sum[c] < -limit))
+			return 0;
+	return 1;
+}
+
+void image_read(const char *path, struct image *m)
+{
+	struct exr e;
+	exr_read(path, &e);
+	if (!strcmp(path, "-"))
+		path = "standard input";
+	const char *range = exr_text(&e, "sampleRange"), *unit = exr_text(&e, "depthUnit");
+	if (!range)
+		die(path, "has no sums to add: a part of an image is made by vrender --sample-range");
+	*m = (struct image){ .width = e.width, .height = e.height, .history = xtext("%s", e.history ? e.history : "") };
+	if (!ranges_read(range, m))
+		die(path, "damaged image: its sampleRange is not a list of ranges");
+	if (!unit || sscanf(unit, "2^%d m", &m->depth_exponent) != 1 || abs(m->depth_exponent) > 200)
+		die(path, "damaged image: its depthUnit is none");
+	m->wave = xalloc((size_t)e.n, sizeof *m->wave);
+	for (int i = 0; i < e.n; i++)
+		if (!strncmp(e.channel[i].name, "S0.", 3))
+			strcpy(m->wave[m->n_waves++], e.channel[i].name);
+	m->n_sums = FILM_SUMS + m->n_waves;
+	m->sum = xalloc(pixels(m), (size_t)m->n_sums * sizeof *m->sum);
+	get_sums(path, &e, m);
+	for (size_t i = 0; i < pixels(m); i++)
+		if (!in_range(m->sum + i * (size_t)m->n_sums, m->n_sums))
+			die(path, "damaged image: a sum is out of range");
+	exr_free(&e);
+}
+
+void image_merge(struct image *into, const struct image *more, const char *path)
+{
+	if (strcmp(into->history, more->history))
+		die(path, "is not of the same image as those before it: its history is another");
+	if (into->width != more->width || into->height != more->height)
+		die(path, "is not of the same image as those before it: it is %d x %d pixels, not %d x %d", more->width, more->height,
+		    into->width, into->height);
+	if (into->depth_exponent != more->depth_exponent || into->n_waves != more->n_waves || into->total != more->total
+	    || memcmp(into->wave, more->wave, (size_t)more->n_waves * sizeof *more->wave))
+		die(path, "is not of the same image as those before it: its layers are others");
+	into->range = xgrow(into->range, (size_t)(into->n_ranges + more->n_ranges), sizeof *into->range);
+	memcpy(into->range + into->n_ranges, more->range, (size_t)more->n_ranges * sizeof *more->range);
+	into->n_ranges += more->n_ranges;
+	char *range = ranges_text(more);
+	if (!tidy(into))
+		die(path, "its samples %s are in part among those before it", range);
+	free(range);
+	for (size_t i = 0; i < pixels(into); i++) {
+		int64 *to = into->sum + i * (size_t)into->n_sums;
+		const int64 *from = more->sum + i * (size_t)into->n_sums;
+		uint64 low = (uint64)to[SUM_SQUARE];
+		for (int c = 0; c < into->n_sums; c++)
+			to[c] = (int64)((uint64)to[c] + (uint64)from[c]);
+		to[SUM_SQUARE + 1] = (int64)((uint64)to[SUM_SQUARE + 1] + ((uint64)to[SUM_SQUARE] < low));
+		if (!in_range(to, into->n_sums))
+			die(path, "the light is too strong: with it a pixel's samples sum to more than 2^32");
+	}
+}
+
+/* -------------------------------------------------------------------- the file */
+
+void image_write(const char *path, const struct image *m, int sums)
+{
+	struct exr e = { .width = m->width, .height = m->height };
+	e.history = xtext("%s", m->history);
+	if (!sums && !m->total) {    /* as if made in one go */
+		free(e.history);
+		e.history = xtext("%.*s --samples %lld\n", (int)strlen(m->history) - 1, m->history, samples(m));
+	}
+	layers(&e, m);
+	if (m->n_waves) {
+		exr_set_text(&e, "spectralLayoutVersion", "1.0");
+		exr_set_text(&e, "emissiveUnits", "W.m^-2.sr^-1");
+	}
+	if (sums) {
+		char *range = ranges_text(m), *unit = xtext("2^%d m", m->depth_exponent);
+		put_sums(&e, m);
+		exr_set_text(&e, "sampleRange", range);
+		exr_set_text(&e, "depthUnit", unit);
+		free(range);
+		free(unit);
+	}
+	exr_write(path, &e);
+	exr_free(&e);
+}
+
+void image_free(struct image *m)
+{
+	free(m->sum);
+	free(m->wave);
+	free(m->range);
+	free(m->history);
+	memset(m, 0, sizeof *m);
+}

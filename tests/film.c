@@ -1,0 +1,71 @@
+/* The film's integers are exact. With an argument, a spectral image: how far its red, green and blue are from the colours of its
+ * wavelengths (used by film.t). */
+#include "base/die.h"
+#include "image/exr.h"
+#include "render/colour.h"
+#include "render/kern/film.h"
+#include "tap.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int colours(const char *path)
+{
+	static struct exr e;
+	static const char *const rgb[] = { "R", "G", "B" };
+	double wavelength[64], worst = 0;
+	const struct exr_channel *wave[64];
+	float weight[64][3];
+	int n = 0;
+	exr_read(path, &e);
+	for (int i = 0; i < e.n && n < 64; i++) {
+		int whole, part;
+		if (sscanf(e.channel[i].name, "S0.%d,%6dnm", &whole, &part) == 2) {
+			wavelength[n] = (whole + part * 1e-6) / 1000;
+			wave[n++] = &e.channel[i];
+		}
+	}
+	if (colour_weights(n, wavelength, weight))
+		die(path, "no colour");
+	for (size_t p = 0; p < (size_t)e.width * (size_t)e.height; p++)
+		for (int c = 0; c < 3; c++) {
+			double sum = 0, size = 1e-3, got = exr_find(&e, rgb[c])->data[p];
+			for (int w = 0; w < n; w++) {
+				sum += (double)weight[w][c] * wave[w]->data[p];
+				size += fabs((double)weight[w][c] * wave[w]->data[p]);
+			}
+			worst = fmax(worst, fabs(sum - got) / size);
+		}
+	printf("%d wavelengths: %.2g\n", n, worst);
+	return !(n && worst < 1e-6);
+}
+
+int main(int argc, char **argv)
+{
+	if (argc > 1)
+		return colours(argv[1]);
+	plan(5);
+	static const int64 values[] = { 0, 1, -1, 65535, 1LL << 31, (1LL << 32) - 1, -(1LL << 32), 0x123456789abcdef, FILM_MOST, -FILM_MOST };
+	unsigned __int128 want = 0;
+	int64 sum[2] = { 0, 0 }, all = 0;
+	int bad = 0;
+	for (int k = 0; k < 3; k++)
+		for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
+			bad |= film_add_square(sum, values[i]);
+			want += (unsigned __int128)((__int128)values[i] * values[i]);
+		}
+	ok(!bad && (uint64)sum[0] == (uint64)want && (uint64)sum[1] == (uint64)(want >> 64), "squares are summed to the last bit");
+	int64 full[2] = { -1, INT64_MAX };
+	ok(film_add_square(full, 1) == 1, "a sum of squares beyond 2^127 is told");
+	bad = 0;
+	for (int k = 0; k < 1000; k++)
+		bad |= film_add(&all, FILM_MOST - 1) | film_add(&all, -(FILM_MOST - 1));
+	ok(!bad && all == 0, "what is just in range may come and go");
+	ok(film_add(&all, film_value(NAN)) && all == 0 && film_add(&all, film_value(INFINITY)) && film_add(&all, 3 * FILM_MOST)
+	   && film_add(&all, -3 * FILM_MOST), "a single sample out of range is told, so is what is not a number");
+	bad = film_add(&all, FILM_MOST - 1) | film_add(&all, FILM_MOST - 1);
+	ok(!bad && film_add(&all, FILM_MOST - 1), "and a sum out of range");
+	return 0;
+}
