@@ -71,7 +71,7 @@ seen() {
 	fi
 	vrender "$scene" --samples 16 --seed $((seed + 1000000)) "$@" -o a.exr
 	vrender "$scene" --samples 16 --seed $((seed + 1000001)) "$@" -o b.exr
-	samples=$(imgcmp --block 32 --rms 9 a.exr b.exr | awk -v e="$error" '$1 == "G" {
+	samples=$(imgcmp --channels G --block 32 --rms 9 a.exr b.exr | awk -v e="$error" '$1 == "G" {
 		n = 1.1 * $2 * $2 / 4 * 16 / 1024 / e / e
 		printf "%d\n", n < 64 ? 64 : n + 1 }')
 	vrender "$scene" --samples "$samples" --seed "$seed" "$@" -o a.exr
@@ -79,7 +79,7 @@ seen() {
 	# the mean of the only block, from black, is that of the image
 	for pair in 'a.exr black.exr' 'b.exr black.exr' 'a.exr b.exr'; do
 		# shellcheck disable=SC2086
-		imgcmp --block 32 --rms 9 $pair
+		imgcmp --channels G --block 32 --rms 9 $pair
 	done | awk -v n="$samples" '$1 == "G" { rms[++i] = $2; mean[i] = $6 }
 		END { printf "%.7g %.3g %d\n", (mean[1] + mean[2]) / 2, rms[3] / 2 / 32, 2048 * n }'
 }
