@@ -102,3 +102,88 @@ zs() {
 			exit !(n && rms >= low && rms <= high && most <= worst && most >= -worst)
 		}'
 }
+
+# ---- grains: clouds of ever more and ever smaller particles, in a cube of side 2 m, optical depth 2 across, albedo 0.9, g 0.5, before
+# a sun of 40 degrees and radiance 2.72; what is not scattered and what is, once and more often, make up the picture.
+# A camera at 9 m from the face sees its middle 1.5 m; a pixel there is (23.4 mm)^2, A = 5.47e-4 m2, what a fat ray covers where that
+# is more than a particle's C = 8 m2/N.
+
+grains_setup() {
+	[ -f one.psd ] || sizes 1 >one.psd
+	hg 0.5 >grains.phase
+	cat >grains.scene <<-'EOT'
+	camera = { position = [0.0, 0.0, 10.0]; target = [0.0, 0.0, 0.0]; fov = 9.5; resolution = [64, 64]; };
+	medium = { file = "grains.medium"; };
+	lights = ( { type = "sun"; direction = [0.0, 0.0, 1.0]; irradiance = 1.0; angle = 40.0; } );
+	EOT
+}
+# grains N SEED: grains.medium
+grains() {
+	xsections "$(awk -v n="$1" 'BEGIN { printf "%.17g %.17g", 8e12 / n, 0.9 * 8e12 / n }')" >grains.xsect
+	particles --psd one.psd --count "$1" --box 2m,2m,2m --seed "$2" |
+		medium-bake --xsect grains.xsect --phase grains.phase --box 2m,2m,2m -o grains.medium
+}
+# continuum SAMPLES: continuous.1.exr and .2.exr, what the clouds come to, from two seeds; black.exr
+continuum() {
+	grains 100 1
+	for s in 1 2; do vrender grains.scene --transport continuous --samples "$1" --seed 200000$s -o continuous.$s.exr; done
+	sed '/^lights/s/.*/lights = ( );/' grains.scene >black.scene
+	vrender black.scene --transport continuous --samples 1 -o black.exr
+}
+# block_rms N CHANNEL..: what imgcmp says of two images; with N = 64 and black.exr the mean of one
+block_rms() { imgcmp --channels G --rms 99 --block "$1" "$2" "$3" | awk '$1 == "G" { print $5 }'; }
+# departs N TRANSPORT SAMPLES SEEDS: for each seed of the particles a line: N, transport, the mean square over blocks of 8 x 8 pixels of
+# the difference from the continuum, the mean of the image. With a and b from two seeds of one cloud, c and d the continuum from two
+# seeds, (a - c)(b - d) = ((a - d)^2 + (b - c)^2 - (a - b)^2 - (c - d)^2)/2 has no Monte Carlo variance in its mean.
+departs() {
+	for seed in $(seq "$4"); do
+		grains "$1" "$seed"
+		for s in 1 2; do
+			vrender grains.scene --transport "$2" --samples "$3" --seed $((2 * seed + s)) -o grains.$s.exr
+		done
+		for pair in 'grains.1 continuous.2' 'grains.2 continuous.1' 'grains.1 grains.2' 'continuous.1 continuous.2'; do
+			block_rms 8 "${pair% *}.exr" "${pair#* }.exr"
+		done >squares
+		for s in 1 2; do block_rms 64 grains.$s.exr black.exr; done | cat squares - | awk -v n="$1" -v t="$2" '{ x[NR] = $1 }
+			END { printf "%s %s %.8g %.8g\n", n, t, (x[1]^2 + x[2]^2 - x[3]^2 - x[4]^2) / 2, (x[5] + x[6]) / 2 }'
+	done
+}
+# limit: the mean of the continuum and its standard error
+limit() {
+	for s in 1 2; do block_rms 64 continuous.$s.exr black.exr; done | paste -s - |
+		awk -v r="$(imgcmp --channels G --rms 99 continuous.1.exr continuous.2.exr | awk '$1 == "G" { print $2 }')" \
+			'{ printf "%.8g %.4g\n", ($1 + $2) / 2, r / 2 / 64 }'
+}
+# law LIMIT ERROR: reads lines of departs; prints a line for each transport and N: transport, N, A/C, clouds, rms of the blocks, the mean, its
+# standard error from the spread over clouds, and the same in standard errors from LIMIT (its own ERROR taken in); then for each transport
+# "slope", its name, the slope of log rms by log N, and the largest mean deviation, in standard errors pooled over N as N^(-1/2).
+law() {
+	sort -k 2,2 -k 1,1g -s | awk -v OFS='\t' -v limit="$1" -v error="$2" '
+		function count(    v) {
+			if (!n) return
+			s /= n; m /= n
+			v = (mm - n * m * m) / (n - 1)
+			rms = s > 0 ? sqrt(s) : 1e-9
+			a = 5.466e-4 * N / 8
+			print t, N, sprintf("%.4g", a > 1 ? a : 1), n, sprintf("%.5g", rms), sprintf("%.6f", m), sprintf("%.2g", sqrt(v / n)),
+				sprintf("%.2f", (m - limit) / sqrt(v / n + error * error))
+			k++; x = log(N); y = log(rms)
+			sx += x; sy += y; sxx += x * x; sxy += x * y
+			number[k] = N; mean[k] = m; pooled += v * N; clouds = n
+			s = m = mm = n = 0
+		}
+		function transport(    i, z, most) {
+			count()
+			if (!k) return
+			for (i = 1; i <= k; i++) {
+				z = (mean[i] - limit) / sqrt(pooled / k / number[i] / clouds + error * error)
+				if (z * z > most * most) most = z
+			}
+			print "slope", t, sprintf("%.4f", (k * sxy - sx * sy) / (k * sxx - sx * sx)), sprintf("%.2f", most)
+			k = sx = sy = sxx = sxy = pooled = 0
+		}
+		$2 != t { transport(); N = "" }
+		$1 != N { count() }
+		{ N = $1; t = $2; n++; s += $3; m += $4; mm += $4 * $4 }
+		END { transport() }'
+}
