@@ -164,7 +164,7 @@ law() {
 			s /= n; m /= n
 			v = (mm - n * m * m) / (n - 1)
 			rms = s > 0 ? sqrt(s) : 1e-9
-			a = 5.466e-4 * N / 8
+			a = t == "fat-ray" ? 5.466e-4 * N / 8 : 1
 			print t, N, sprintf("%.4g", a > 1 ? a : 1), n, sprintf("%.5g", rms), sprintf("%.6f", m), sprintf("%.2g", sqrt(v / n)),
 				sprintf("%.2f", (m - limit) / sqrt(v / n + error * error))
 			k++; x = log(N); y = log(rms)
@@ -186,4 +186,31 @@ law() {
 		$1 != N { count() }
 		{ N = $1; t = $2; n++; s += $3; m += $4; mm += $4 * $4 }
 		END { transport() }'
+}
+
+# ---- noise: an image rendered from two seeds, NAME.1.exr and NAME.2.exr, knows the spread of its blocks by the differences of pixels
+
+# twice NAME SCENE SEED [OPTION..]: from SEED and SEED + 1
+twice() {
+	name=$1 scene=$2 seed=$3
+	shift 3
+	for s in 1 2; do vrender "$scene" --seed $((seed + s - 1)) "$@" -o "$name.$s.exr"; done
+}
+# blocks NAME CHANNEL SIDE: for each of SIDE x SIDE blocks of 8 x 8 pixels the mean and its variance
+blocks() {
+	oiiotool "$1.1.exr" --ch "$2" "$1.2.exr" --ch "$2" --add --mulc 0.5 --resize:filter=box "$3x$3" -d float -o mean.exr \
+		"$1.1.exr" --ch "$2" "$1.2.exr" --ch "$2" --sub --dup --mul --mulc 0.00390625 --resize:filter=box "$3x$3" -d float -o variance.exr
+	oiiotool --dumpdata mean.exr | awk '/Pixel/ { print $NF }' >means
+	oiiotool --dumpdata variance.exr | awk '/Pixel/ { print $NF }' | paste means -
+}
+# against NAME FILE..: lines for zs: the blocks of the first FILE against the sums of those of the others; then their sum as "whole"
+against() {
+	name=$1
+	shift
+	paste "$@" | awk -v OFS='\t' -v name="$name" '{
+		w = 0; v = $2
+		for (i = 3; i < NF; i += 2) { w += $i; v += $(i + 1) }
+		print name " " NR, w, $1, sqrt(v)
+		ws += w; gs += $1; vs += v
+	} END { print "whole", ws / NR, gs / NR, sqrt(vs) / NR }'
 }

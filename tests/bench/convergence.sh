@@ -47,8 +47,8 @@ set key top right
 set title "grains against the continuous medium, blocks of 8 x 8 pixels"
 set xlabel "particles, of the same extinction in all"
 set ylabel "rms difference of radiance, of a mean near 0.52"
-set xrange [700:1.4e6]
-of(t) = "< grep '^".t."' convergence.tsv"
+set xrange [600:2e6]
+of(t) = "< grep ^".t." convergence.tsv"
 plot 8 / sqrt(x) lw 1 lc rgb "#888888" dt 2 title "slope -1/2", \
 	of("explicit") using 2:5 with linespoints lw 2 lc 1 pt 7 title "explicit", \
 	of("fat-ray") using 2:5 with linespoints lw 2 lc 2 pt 5 title "fat-ray", \

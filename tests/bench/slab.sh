@@ -20,7 +20,7 @@ row() {
 	slab s.medium "$5" "$6" "hg$4.phase"
 	for q in $3; do
 		[ "$q" = R ] && want=$8 lit=-1 || want=$9 lit=1
-		look s.scene s.medium "$7" "$(half_sky $lit)"
+		look s.scene s.medium "$7" "$(half_sky "$lit")"
 		value "$1" "$q g $4 tau $5 albedo $6 mu0 $7" "$want" "$2" s.scene
 	done
 }
@@ -68,7 +68,7 @@ judge() {
 	largest=$(cut -f 4 lines | sort -g | tail -1)
 	awk -v e="$largest" -v limit="$5" 'BEGIN { exit !(e <= limit) }' || pass=FAIL
 	echo "$pass $1: $told; largest standard error $largest"
-	[ $pass = PASS ] || failed=1
+	[ "$pass" = PASS ] || failed=1
 }
 judge 'slabs' slab 0.85 1.15 1.05e-3
 judge 'slabs, exactly' exact 4.1 '' 1.05e-4
