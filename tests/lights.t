@@ -4,7 +4,7 @@
 . "$(dirname "$0")/lib.sh"
 # shellcheck source=tests/render.sh
 . "$(dirname "$0")/render.sh"
-plan 102
+plan 104
 
 # box HALF RADIANCE: six quads that face inwards.
 box() {
@@ -180,6 +180,16 @@ want=$(awk 'BEGIN { pi = atan2(0, -1)
 		e += c * (r == 14 ? 3 * 64 : r == 5 || r == 6 ? 1000 * 2 + 0.5 * 62 : 0.5 * 64) }
 	printf "%.8g", 0.8 * e / pi }')
 lit 'ground under a map with a bright spot' "$want" '{ type = "environment"; file = "spot.exr"; }'
+
+# a black quad 5 mm before a lamp 1 km away, and a lamp 5 mm under the ground: no light comes by
+lamp='{ type = "quad"; corner = [-300.0, 1000.0, -300.0]; edge1 = [600.0, 0.0, 0.0]; edge2 = [0.0, 0.0, 600.0]; radiance = 1.0; }'
+shade='{ type = "quad"; corner = [-400.0, 999.995, -400.0]; edge1 = [800.0, 0.0, 0.0]; edge2 = [0.0, 0.0, 800.0]; radiance = 0.0; }'
+view hg.medium '0.0, 0.5, 9.0' '0.0, 0.0, 0.0' 0.1 "$ground lights = ( $lamp, $shade );"
+flat view.exr '0.000000 0.000000 0.000000' 'a shade close before a distant lamp'
+scene deep.scene hg.medium 8 'ground = { height = -1.5; albedo = 0.0; }; lights = ( { type = "quad"; corner = [-3.0, -1.505, -3.0];
+	edge1 = [0.0, 0.0, 6.0]; edge2 = [6.0, 0.0, 0.0]; radiance = 1.0; } );'
+vrender deep.scene --samples 16 -o view.exr
+flat view.exr '0.000000 0.000000 0.000000' 'a lamp under the ground lights nothing'
 
 # a quad stands in the sun: shadow and light are exact
 shade='{ type = "quad"; corner = [-1.0, 1.0, -1.0]; edge1 = [2.0, 0.0, 0.0]; edge2 = [0.0, 0.0, 2.0]; radiance = 0.0; }'

@@ -28,7 +28,7 @@ int main(int argc, char **argv)
 	image_read(args.operand[0], &all);
 	for (int i = 1; i < args.n; i++) {
 		image_read(args.operand[i], &more);
-		image_merge(&all, &more, args.operand[i]);
+		image_merge(&all, &more, strcmp(args.operand[i], "-") ? args.operand[i] : "standard input");
 		image_free(&more);
 	}
 	struct out out = out_open(output, 1);

@@ -82,6 +82,12 @@ static int is_sum(const char *name)
 	return !strncmp(name, "sum.", 4);
 }
 
+/* What is no radiance: compared exactly or by name, never within a tolerance for the others. */
+static int is_tally(const char *name)
+{
+	return !strcmp(name, "count") || !strcmp(name, "depth.Z") || !strcmp(name, "variance.Y");
+}
+
 /* Is the channel to be compared? */
 static int chosen(const char *names, const char *name)
 {
@@ -157,7 +163,7 @@ int main(int argc, char **argv)
 	const struct opt opts[] = {
 		{ "--rms", OPT_REAL, &rms, 0, DBL_MAX, "E", "let the root mean square of the difference be up to E", 0 },
 		{ "--max", OPT_REAL, &max, 0, DBL_MAX, "E", "let no difference be above E", 0 },
-		{ "--block", OPT_INT, &side, 0, EXR_SIDE_MAX, "N", "hold the tolerances against means of N x N pixels", 0 },
+		{ "--block", OPT_INT, &side, 1, EXR_SIDE_MAX, "N", "hold the tolerances against means of N x N pixels", 0 },
 		{ "--channels", OPT_TEXT, &names, 0, 0, "A[,B..]", "compare these channels only", 0 },
 		{ "--difference", OPT_FILE, &picture, 0, 0, "OUT.exr", "write the picture of A - B", 1 },
 		OPT_END
@@ -168,6 +174,8 @@ int main(int argc, char **argv)
 		die(NULL, "needs two images; see imgcmp --help");
 	if (!strcmp(args.operand[0], "-") && !strcmp(args.operand[1], "-"))
 		die(NULL, "only one of the images can be standard input");
+	if (picture && !strcmp(picture, "-"))
+		die("--difference", "needs a file; standard output has the figures");
 	static struct exr a, b;
 	exr_read(args.operand[0], &a);
 	exr_read(args.operand[1], &b);
@@ -191,7 +199,13 @@ int main(int argc, char **argv)
 		compare(&s, &a, &a.channel[i], other, side ? (size_t)side : 8);
 		print(out.f, a.channel[i].name, &s);
 		double got_rms = sqrt((side ? s.block_square : s.square) / (double)s.n), got_max = side ? s.block_max : s.max;
-		differ |= isnan(rms) && isnan(max) ? got_max > 0 : got_rms > rms || got_max > max || isinf(got_max);
+		if (isnan(rms) && isnan(max))
+			differ |= s.max > 0;
+		else if (names || !is_tally(a.channel[i].name))
+			differ |= got_rms > rms || got_max > max || isinf(got_max);
+		common++;
+		if (is_tally(a.channel[i].name))
+			continue;
 		all.square += s.square;
 		all.relative += s.relative;
 		all.block_square += s.block_square;
@@ -202,7 +216,6 @@ int main(int argc, char **argv)
 			all.column = s.column;
 			all.row = s.row;
 		}
-		common++;
 	}
 	if (!common)
 		die(args.operand[1], "has no channel to compare with %s", args.operand[0]);

@@ -96,7 +96,8 @@ int main(int argc, char **argv)
 	const char *path = args.n ? args.operand[0] : "-";
 	scenefile_read(path, &file);
 	medium_open(file.medium, &medium);
-	if (transport < 0)
+	int asked = transport >= 0;
+	if (!asked)
 		transport = medium.n_particles ? TRANSPORT_EXPLICIT : TRANSPORT_CONTINUOUS;
 	else if ((transport == TRANSPORT_EXPLICIT || transport == TRANSPORT_FAT_RAY) && !medium.n_particles)
 		die(file.medium, "has no particles, which explicit and fat-ray need; bake it from particles, or render it as grid or continuous");
@@ -107,9 +108,10 @@ int main(int argc, char **argv)
 	job_make(&job, &file, &medium, transport, attenuation, (uint32)seed);
 	job_film(&job, spectral);
 	if (verbose)
-		warn(file.medium, "%s: %zu particles, %d classes, %d wavelengths, optical depth %.4g along the shortest axis",
-		     (const char *[]){ "explicit", "fat-ray", "grid", "continuous" }[transport], medium.n_particles, medium.n_classes, medium.n_waves,
-		     job.tables.extinction[0] * 2 * fmin(medium.half[0], fmin(medium.half[1], medium.half[2])));
+		warn(file.medium, "%s, %s: %zu particles, %d classes, %d wavelengths, mean optical depth %.4g along the shortest axis",
+		     (const char *[]){ "explicit", "fat-ray", "grid", "continuous" }[transport],
+		     asked ? "as asked for" : medium.n_particles ? "the default for particles" : "the default without particles",
+		     medium.n_particles, medium.n_classes, medium.n_waves, medium_depth(&medium));
 
 	struct out out = out_open(output, 1);    /* before the work, not after */
 	struct cl *cl = backend ? cl_start(&job, (int)device) : NULL;
@@ -119,10 +121,11 @@ int main(int argc, char **argv)
 	if (job.overflow)
 		die(path, "the light is too strong: a pixel's samples sum to more than 2^32; scale the lights down");
 	struct image image;
-	char *history = tab_join(medium.history, file.history, NULL);
+	char *content = xtext("medium crc %08x", medium.crc), *history = tab_join(medium.history, content, file.history, NULL);
 	image_of(&image, &job, &medium, from, to, samples, history, args.history);
 	image_write(&out, &image, part != NULL);
 	image_free(&image);
+	free(content);
 	free(history);
 	job_free(&job);
 	medium_close(&medium);

@@ -40,6 +40,14 @@ double medium_volume(const struct medium *m)
 	return m->round ? 4 * M_PI / 3 * m->half[0] * m->half[0] * m->half[0] : 8 * m->half[0] * m->half[1] * m->half[2];
 }
 
+double medium_depth(const struct medium *m)
+{
+	double c = 0;
+	for (int k = 0; k < m->n_classes; k++)
+		c += m->count[k] * m->c_ext[k * m->n_waves];
+	return c * 1e-12 / medium_volume(m) * 2 * fmin(m->half[0], fmin(m->half[1], m->half[2]));
+}
+
 static void *const *array_of(const struct medium *m, int i)
 {
 	return (void *const *)(const void *)((const char *)m + sections[i].offset);
@@ -128,7 +136,7 @@ static void damaged(const char *path, const char *what)
 }
 
 /* Read the whole file once, in order: the checksum is right, or it is refused. Returns its size. */
-static size_t verify(const char *path, int fd)
+static size_t verify(const char *path, int fd, uint32_t *file_crc)
 {
 	size_t block = 1 << 20, size = 0;
 	unsigned char *buffer = xalloc(block + TRAILER, 1);
@@ -159,6 +167,7 @@ static size_t verify(const char *path, int fd)
 	if (stated != size || tail[0] != crc || tail[1])
 		damaged(path, "cut short or changed (size or checksum does not match)");
 	free(buffer);
+	*file_crc = crc;
 	return size;
 }
 
@@ -361,7 +370,7 @@ void medium_open(const char *path, struct medium *m)
 		die(path, "cannot open:");
 	if (fstat(fd, &st) || !S_ISREG(st.st_mode))
 		die(path, "is not a regular file");
-	m->map_size = verify(path, fd);
+	m->map_size = verify(path, fd, &m->crc);
 	m->map = mmap(NULL, m->map_size, PROT_READ, MAP_PRIVATE, fd, 0);
 	if (m->map == MAP_FAILED)
 		die(path, "cannot map:");

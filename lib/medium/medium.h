@@ -35,12 +35,16 @@ struct medium {
 	size_t n_density;
 	float *density;                 /* [z][y][x] relative density of a medium without particles, see density.h */
 	double matter;                  /* m^3, integral of the density over the medium */
-	void *map;                      /* of an open file */
+	uint32_t crc;                   /* of an open file: what a history says of its content */
+	void *map;
 	size_t map_size;
 };
 
 /* medium_volume - in m^3. */
 double medium_volume(const struct medium *m);
+
+/* medium_depth - mean optical depth along the shortest axis at the first wavelength. */
+double medium_depth(const struct medium *m);
 
 /* medium_write - write a file (not standard output: it is mapped when read). Dies. */
 void medium_write(const char *path, const struct medium *m);

@@ -46,17 +46,15 @@ const char *image_range(const char *text, long long *from, long long *to)
 
 static char *ranges_text(const struct image *m)
 {
-	char *text = xtext("%s", "");
-	for (int i = 0; i < m->n_ranges; i++) {
-		char *longer = xtext("%s%s%lld:%lld", text, i ? "," : "", m->range[i][0], m->range[i][1]);
-		free(text);
-		text = longer;
-	}
-	if (m->total) {
-		char *longer = xtext("%s of %lld", text, m->total);
-		free(text);
-		text = longer;
-	}
+	char *text;
+	size_t size;
+	FILE *f = open_memstream(&text, &size);
+	for (int i = 0; f && i < m->n_ranges; i++)
+		fprintf(f, "%s%lld:%lld", i ? "," : "", m->range[i][0], m->range[i][1]);
+	if (f && m->total)
+		fprintf(f, " of %lld", m->total);
+	if (!f || fclose(f))
+		die(NULL, "out of memory");
 	return text;
 }
 
@@ -93,7 +91,8 @@ static int ranges_read(const char *text, struct image *m)
 	if (of)
 		*of = 0;
 	for (char *word = strtok_r(copy, ",", &save); word && good; word = strtok_r(NULL, ",", &save)) {
-		m->range = xgrow(m->range, (size_t)m->n_ranges + 1, sizeof *m->range);
+		if (!(m->n_ranges & (m->n_ranges - 1)))    /* room in powers of two */
+			m->range = xgrow(m->range, m->n_ranges ? 2 * (size_t)m->n_ranges : 1, sizeof *m->range);
 		good = !image_range(word, &m->range[m->n_ranges][0], &m->range[m->n_ranges][1]);
 		m->n_ranges++;
 	}
@@ -228,8 +227,11 @@ void image_read(const char *path, struct image *m)
 	*m = (struct image){ .width = e.width, .height = e.height, .history = xtext("%s", e.history ? e.history : "") };
 	if (!ranges_read(range, m))
 		die(path, "damaged image: its sampleRange is not a list of ranges");
-	if (!unit || sscanf(unit, "2^%d m", &m->depth_exponent) != 1 || abs(m->depth_exponent) > 200)
+	m->depth_exponent = unit && !strncmp(unit, "2^", 2) ? (int)strtol(unit + 2, NULL, 10) : 1000;
+	char *again = xtext("2^%d m", m->depth_exponent);
+	if (!unit || strcmp(again, unit) || m->depth_exponent < -200 || m->depth_exponent > 200)
 		die(path, "damaged image: its depthUnit is none");
+	free(again);
 	m->wave = xalloc((size_t)e.n, sizeof *m->wave);
 	for (int i = 0; i < e.n; i++)
 		if (!strncmp(e.channel[i].name, "S0.", 3))
@@ -240,6 +242,10 @@ void image_read(const char *path, struct image *m)
 	for (size_t i = 0; i < pixels(m); i++)
 		if (!in_range(m->sum + i * (size_t)m->n_sums, m->n_sums))
 			die(path, "damaged image: a sum is out of range");
+	const struct exr_channel *count = exr_find(&e, "count");
+	for (size_t i = 0; i < pixels(m); i++)
+		if (!count || !count->is_uint || memcmp(&count->data[i], &(uint32_t){ (uint32_t)samples(m) }, 4))
+			die(path, "damaged image: its count is not that of its sampleRange");
 	exr_free(&e);
 }
 

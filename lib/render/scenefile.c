@@ -11,6 +11,7 @@
 #include <string.h>
 
 #define SIDE_MAX 16384
+#define TEXT_MAX (1 << 20)
 
 static void bad(const char *path, const config_setting_t *at, const char *fmt, ...) __attribute__((noreturn, format(printf, 3, 4)));
 static void bad(const char *path, const config_setting_t *at, const char *fmt, ...)
@@ -207,7 +208,7 @@ static void light(const char *path, config_setting_t *g, struct scenefile *s)
 static void list(FILE *f, int n, const double *v)
 {
 	for (int i = 0; i < n; i++)
-		fprintf(f, "%c%.9g", i ? ',' : ' ', v[i]);
+		fprintf(f, "%c%.17g", i ? ',' : ' ', v[i]);
 }
 
 static char *canonical(const struct scenefile *s)
@@ -217,7 +218,7 @@ static char *canonical(const struct scenefile *s)
 	FILE *f = open_memstream(&text, &size);
 	if (!f)
 		die(NULL, "out of memory");
-	fprintf(f, "scene camera %.9g,%.9g,%.9g %.9g,%.9g,%.9g %.9g,%.9g,%.9g %.9g %dx%d medium %.9g,%.9g,%.9g", s->position[0],
+	fprintf(f, "scene camera %.17g,%.17g,%.17g %.17g,%.17g,%.17g %.17g,%.17g,%.17g %.17g %dx%d medium %.17g,%.17g,%.17g", s->position[0],
 	        s->position[1], s->position[2], s->target[0], s->target[1], s->target[2], s->up[0], s->up[1], s->up[2], s->fov, s->width,
 	        s->height, s->medium_position[0], s->medium_position[1], s->medium_position[2]);
 	fprintf(f, " environment");
@@ -240,11 +241,30 @@ static char *canonical(const struct scenefile *s)
 		list(f, 3, s->map.scale);
 	}
 	if (s->has_ground)
-		fprintf(f, " ground %.9g %.9g", s->ground_height, s->ground_albedo);
+		fprintf(f, " ground %.17g %.17g", s->ground_height, s->ground_albedo);
 	fclose(f);
 	end = xtext("%s\n", text);
 	free(text);
 	return end;
+}
+
+/* The text of a scene. libconfig's own reading of files, and of files that they include, exits without a line of ours where it
+ * fails. */
+static char *whole(const char *path, FILE *f)
+{
+	size_t n = 0;
+	char *text = xalloc(TEXT_MAX + 2, 1);
+	n = fread(text, 1, TEXT_MAX + 1, f);
+	if (ferror(f))
+		die(path, "cannot read:");
+	if (n > TEXT_MAX)
+		die(path, "is larger than %d bytes", TEXT_MAX);
+	if (strlen(text) != n)
+		die(path, "has a NUL byte");
+	for (const char *line = text; line; line = strchr(line, '\n') ? strchr(line, '\n') + 1 : NULL)
+		if (!strncmp(line + strspn(line, " \t"), "@include", 8))
+			die(path, "@include is not known in a scene");
+	return text;
 }
 
 void scenefile_read(const char *path, struct scenefile *s)
@@ -258,16 +278,14 @@ void scenefile_read(const char *path, struct scenefile *s)
 	config_init(&config);
 	if (standard)
 		path = "standard input";
-	int first = getc(f);       /* libconfig's scanner exits by itself where reading fails, as of a folder */
-	if (first == EOF && ferror(f))
-		die(path, "cannot read:");
-	ungetc(first, f);
-	if (!config_read(&config, f)) {
+	char *text = whole(path, f);
+	if (!config_read_string(&config, text)) {
 		const char *what = config_error_text(&config) ? config_error_text(&config) : "cannot be read";
 		die(path, "line %d: %s%s", config_error_line(&config), what,
 		    strstr(what, "element type") ? " (write 0.0, not 0, beside numbers with a point)" : "");
 	}
 	fclose(f);
+	free(text);
 	config_setting_t *root = config_root_setting(&config), *g, *lights;
 	only(path, root, "camera medium lights ground");
 	for (const char *const *w = (const char *const[]){ "camera", "medium", NULL }; *w; w++)

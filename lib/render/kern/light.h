@@ -25,7 +25,10 @@ FN float quad_distance(const struct light *q, struct ray r)
 	return u >= 0.f && u <= 1.f && v >= 0.f && v <= 1.f ? t : FAR;
 }
 
-/* Distance to the first surface, and which it is: the index of a quad, GROUND, or NONE at FAR. */
+#define TIE 0.999998f    /* distances nearer to each other than this ratio are one: a few steps of a float */
+
+/* Distance to the first surface, and which it is: the index of a quad, GROUND, or NONE at FAR. A quad that lies on the ground is
+ * before it. */
 FN float surface_distance(const struct scene *s, struct ray r, int *which)
 {
 	float t = s->has_ground ? (s->ground_height - r.from.y) * inverse(r.along.y) : FAR;
@@ -35,7 +38,7 @@ FN float surface_distance(const struct scene *s, struct ray r, int *which)
 		if (s->light[i].kind != LIGHT_QUAD)
 			continue;
 		float own = quad_distance(&s->light[i], r);
-		if (own < t) {
+		if (own < t || (*which == GROUND && own * TIE < t)) {
 			t = own;
 			*which = i;
 		}
@@ -168,7 +171,7 @@ FN int light_blocked(const struct scene *s, struct ray r, const struct drawn *d)
 {
 	int which;
 	float t = surface_distance(s, r, &which);
-	return which != NONE && which != d->which && t < d->t_end * 0.99999f;
+	return which != NONE && which != d->which && t < d->t_end * TIE;
 }
 
 /* The weight of a light met by a path whose direction has the density chance (0: from the camera, where none is drawn). */
