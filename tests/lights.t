@@ -211,23 +211,7 @@ all="lights = ( { type = \"environment\"; radiance = [0.1, 0.2, 0.3]; }, { type 
 	ground = { height = -1.2; albedo = 0.4; };"
 scene all.scene three.medium 32 "$all"
 scene tiny.scene three.medium 4 "$all"
-for t in explicit fat-ray grid continuous; do
-	vrender all.scene --samples 16 --transport $t --threads 1 -o c.exr
-	vrender all.scene --samples 16 --transport $t --threads 2 -o two.exr
-	cmp c.exr two.exr
-	ok $? "$t: two threads give the bytes of one"
-	vrender all.scene --samples 16 --transport $t --backend opencl -o cl.exr
-	cmp c.exr cl.exr
-	ok $? "$t: OpenCL gives the bytes of C"
-	oiiotool --stats c.exr | grep -q 'Stats NanCount: 0 0 0'
-	ok $? "$t: an independent reader finds no NaN"
-	vrender tiny.scene --samples 1 --transport $t -o c.exr
-	# built and simulated as in render.t
-	PATH=$top/build/bin:$PATH oclgrind --check-api --build-options '-DFN=static -cl-opt-disable' vrender tiny.scene --samples 1 --transport $t --backend opencl -o grind.exr 2>grind.err
-	is "0 0" "$? $(grep -vc 'the device rounds otherwise' grind.err)" "$t: oclgrind finds nothing wrong"
-	cmp c.exr grind.exr
-	ok $? "$t: and gives the same bytes"
-done
+same_bytes all.scene 16 tiny.scene
 
 # ---- bad input in one line
 

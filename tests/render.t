@@ -71,27 +71,8 @@ grains three.medium 3000 three.xsect hg3.phase
 full='lights = ( { type = "environment"; radiance = 0.3; }, { type = "sun"; direction = [-0.6, -1.0, -0.3]; irradiance = 2.0; angle = 10.0; },
 	{ type = "sun"; direction = [1, -1, 0]; irradiance = 1; } ); ground = { height = -1.2; albedo = 0.4; };'
 scene three.scene three.medium 32 "$full"
-for t in explicit fat-ray grid continuous; do
-	vrender three.scene --samples 8 --transport $t --threads 1 -o t1.exr
-	vrender three.scene --samples 8 --transport $t --threads 2 -o t2.exr
-	cmp t1.exr t2.exr
-	ok $? "$t: two threads give the bytes of one"
-	vrender three.scene --samples 8 --transport $t --backend opencl -o cl.exr
-	cmp t1.exr cl.exr
-	ok $? "$t: OpenCL gives the bytes of C"
-	oiiotool --stats t1.exr | grep -q 'Stats NanCount: 0 0 0'
-	ok $? "$t: an independent reader finds no NaN"
-done
 scene tiny.scene three.medium 4 "$full"
-for t in explicit fat-ray grid continuous; do
-	vrender tiny.scene --samples 1 --transport $t -o c.exr
-	# the ordinary build, since a sanitizer does not go with the simulator's libraries; FN=static, since inlining leaves
-	# intrinsics that the simulator does not know
-	PATH=$top/build/bin:$PATH oclgrind --check-api --build-options '-DFN=static -cl-opt-disable' vrender tiny.scene --samples 1 --transport $t --backend opencl -o grind.exr 2>grind.err
-	is "0 0" "$? $(grep -vc 'the device rounds otherwise' grind.err)" "$t: oclgrind finds nothing wrong"
-	cmp c.exr grind.exr
-	ok $? "$t: and gives the same bytes"
-done
+same_bytes three.scene 8 tiny.scene
 hg 0.7 0.40 0.42 0.44 0.46 0.48 0.50 0.52 0.54 0.56 0.58 0.60 >many.phase
 xsections 3000000 0.9 0.40 0.42 0.44 0.46 0.48 0.50 0.52 0.54 0.56 0.58 0.60 >many.xsect
 medium-bake --xsect many.xsect --phase many.phase --psd one.psd --concentration 1e6/m3 --sphere 1m -o many.medium
