@@ -51,7 +51,7 @@ int main(void)
 	long wrong = 0;
 	for (int k = -(1 << 23); k < 1 << 24; k += 7) {
 		float v = (float)k * 0x1p-30f * 1.5f;
-		wrong += film_value(v) != (int64)floor(v * FILM_UNIT + 0.5) && v > 0;
+		wrong += film_value(v) != llround((double)v * FILM_UNIT);
 	}
 	ok(!wrong, "the film rounds to the nearest: %ld differ", wrong);
 	double worst_path = 0;

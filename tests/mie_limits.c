@@ -1,17 +1,12 @@
 /* Lorenz-Mie within itself: conservation, normalisation, limits, and every corner of its domain. */
 #include "optics/angles.h"
-#include "optics/mie.h"
 
 #include "tap.h"
+#include "waves.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
-
-struct waves {
-	int n;
-	double complex *a, *b;
-};
 
 static void *room(size_t n, size_t size)
 {
@@ -19,30 +14,6 @@ static void *room(size_t n, size_t size)
 	if (!p)
 		exit(2);
 	return p;
-}
-
-static struct waves waves(double x, double complex m)
-{
-	struct waves w = { mie_terms(x, m), NULL, NULL };
-	w.a = room((size_t)w.n + 1, sizeof *w.a);
-	w.b = room((size_t)w.n + 1, sizeof *w.b);
-	if (mie_coefficients(x, m, w.n, w.a, w.b))
-		exit(2);
-	return w;
-}
-
-static void drop(struct waves *w)
-{
-	free(w->a);
-	free(w->b);
-}
-
-static struct efficiencies q_of(double x, double complex m)
-{
-	struct waves w = waves(x, m);
-	struct efficiencies q = mie_efficiencies(x, cimag(m) == 0, w.n, w.a, w.b);
-	drop(&w);
-	return q;
 }
 
 /* Uniform in [0, 1); the same everywhere. */

@@ -1,40 +1,10 @@
 /* Lorenz-Mie against reference values, published tables, and the limits of physics. */
-#include "optics/mie.h"
-
 #include "tap.h"
+#include "waves.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-struct waves {
-	int n;
-	double complex *a, *b;
-};
-
-static struct waves waves(double x, double complex m)
-{
-	struct waves w = { mie_terms(x, m), NULL, NULL };
-	w.a = malloc(((size_t)w.n + 1) * sizeof *w.a);
-	w.b = malloc(((size_t)w.n + 1) * sizeof *w.b);
-	if (!w.a || !w.b || mie_coefficients(x, m, w.n, w.a, w.b))
-		exit(2);
-	return w;
-}
-
-static void drop(struct waves *w)
-{
-	free(w->a);
-	free(w->b);
-}
-
-static struct efficiencies q_of(double x, double complex m)
-{
-	struct waves w = waves(x, m);
-	struct efficiencies q = mie_efficiencies(x, cimag(m) == 0, w.n, w.a, w.b);
-	drop(&w);
-	return q;
-}
 
 static double off(double got, double want)
 {

@@ -4,18 +4,6 @@
 
 #include <string.h>
 
-#define BATCH 256
-
-/* Up to BATCH waves, their coefficients together bounded in memory by their number of terms, which x tells beforehand. */
-static int gather(struct coeffs *in, struct waves *w)
-{
-	double x = 0;
-	int n = 0;
-	while (n < BATCH && x < 1e6 && coeffs_next(in, &w[n]))
-		x += w[n++].size.x;
-	return n;
-}
-
 static void put(struct tab_out *out, struct coeffs *in, int ncarried, const struct waves *w)
 {
 	double row[TAB_COLS];
@@ -29,14 +17,14 @@ static void put(struct tab_out *out, struct coeffs *in, int ncarried, const stru
 
 static void run(struct coeffs *in, const char *output, const char *command)
 {
-	static struct waves w[BATCH];
+	static struct waves w[COEFFS_BATCH];
 	struct tab_col cols[TAB_COLS];
 	int k = coeffs_columns(in, cols);
 	memcpy(cols + k, coeffs_cols, sizeof coeffs_cols);
 	k += COEFFS_COLS;
-	int ncarried = coeffs_carried(in, k, cols, cols + k), n = gather(in, w), failed = 0;
+	int ncarried = coeffs_carried(in, k, cols, cols + k), n = coeffs_batch(in, w), failed = 0;
 	struct tab_out *out = tab_create(output, coeffs_history(in), command, k + ncarried, cols);
-	for (; n; n = gather(in, w)) {
+	for (; n; n = coeffs_batch(in, w)) {
 #pragma omp parallel for schedule(dynamic) reduction(|:failed) if (n > 1)
 		for (int i = 0; i < n; i++)
 			failed |= waves_solve(&w[i]) != 0;

@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define BATCH 256
 #define GOA_ORDER 3    /* rays of the phase function, as published */
 #define GOA_FAILS 1    /* estimated error from which on the model does not hold (goa.h) */
 
@@ -46,15 +45,6 @@ static void answer(int method, struct waves *w, struct answer *a)
 	a->error = mie_error(w->size.x, w->n, w->a, w->b);
 }
 
-static int gather(struct coeffs *in, struct waves *w)
-{
-	double x = 0;
-	int n = 0;
-	while (n < BATCH && x < 1e6 && coeffs_next(in, &w[n]))
-		x += w[n++].size.x;
-	return n;
-}
-
 static int columns(int by_x, struct tab_col *cols)
 {
 	static const struct tab_col by_size[] = {
@@ -85,16 +75,16 @@ static int values(int by_x, int method, const struct size *size, const struct an
 
 static struct worst run(struct coeffs *in, int method, const char *output, const char *command)
 {
-	static struct waves w[BATCH];
-	static struct answer a[BATCH];
+	static struct waves w[COEFFS_BATCH];
+	static struct answer a[COEFFS_BATCH];
 	struct worst worst = { .error = -1 };
 	struct tab_col cols[TAB_COLS];
 	double row[TAB_COLS];
 	int by_x = coeffs_by_x(in), k = coeffs_columns(in, cols);
 	k += columns(by_x, cols + k);
-	int ncarried = coeffs_carried(in, k, cols, cols + k), n = gather(in, w);
+	int ncarried = coeffs_carried(in, k, cols, cols + k), n = coeffs_batch(in, w);
 	struct tab_out *out = tab_create(output, coeffs_history(in), command, k + ncarried, cols);
-	for (; n; n = gather(in, w)) {
+	for (; n; n = coeffs_batch(in, w)) {
 #pragma omp parallel for schedule(dynamic) if (n > 1)
 		for (int i = 0; i < n; i++)
 			answer(method, &w[i], &a[i]);

@@ -203,6 +203,15 @@ int coeffs_next(struct coeffs *c, struct waves *out)
 	return 1;
 }
 
+int coeffs_batch(struct coeffs *c, struct waves out[COEFFS_BATCH])
+{
+	double x = 0;
+	int n = 0;
+	while (n < COEFFS_BATCH && x < 1e6 && coeffs_next(c, &out[n]))
+		x += out[n++].size.x;
+	return n;
+}
+
 void coeffs_close(struct coeffs *c)
 {
 	if (c->sizes)

@@ -48,6 +48,11 @@ int coeffs_key(const struct coeffs *c, const struct size *size, double *row);
 /* coeffs_next - the next waves; 0 at the end. To be freed by waves_free. */
 int coeffs_next(struct coeffs *c, struct waves *out);
 
+/* coeffs_batch - up to COEFFS_BATCH next waves, fewer where x is large, so that their coefficients together stay bounded in memory;
+ * returns how many, 0 at the end. */
+#define COEFFS_BATCH 256
+int coeffs_batch(struct coeffs *c, struct waves out[COEFFS_BATCH]);
+
 void coeffs_close(struct coeffs *c);
 
 /* The writer's columns after the key columns, and their values for wave l. */
