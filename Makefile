@@ -10,7 +10,7 @@ PACKAGES = gcc libc6-dev make pkg-config libopenexr-dev libimath-dev libpng-dev 
 	ocl-icd-opencl-dev opencl-headers pocl-opencl-icd oclgrind mandoc openimageio-tools perl git
 BENCH_PACKAGES = gnuplot-nox
 
-OWN_CFLAGS = -std=c11 -D_GNU_SOURCE -DMOTES_VERSION='"$(VERSION)"' -DCL_TARGET_OPENCL_VERSION=120 -Ilib -ffp-contract=off -fno-math-errno \
+OWN_CFLAGS = -std=c11 -D_GNU_SOURCE -DMOTES_VERSION='"$(VERSION)"' -DCL_TARGET_OPENCL_VERSION=120 -Ilib -ffp-contract=off -fno-math-errno -Wno-psabi \
 	-fopenmp -Wall -Wextra -Wshadow -Wmissing-prototypes
 OWN_LDFLAGS = -fopenmp -Wl,--as-needed
 LIBS = -lOpenEXRCore -lpng -lz -lconfig -lOpenCL -lm
@@ -20,7 +20,17 @@ EXR_CFLAGS = $(shell pkg-config --cflags OpenEXR)    # asked for when used: make
 TOOLS = $(patsubst tools/%.c,%,$(wildcard tools/*.c))
 CHECKS = $(patsubst tests/%.c,%,$(wildcard tests/*.c))
 GENERATED = materials kernels
-OBJECTS = $(patsubst lib/%.c,obj/%.o,$(wildcard lib/*/*.c)) $(GENERATED:%=obj/gen/%.o)
+OBJECTS = $(patsubst lib/%.c,obj/%.o,$(filter-out lib/render/lanes.c,$(wildcard lib/*/*.c))) $(GENERATED:%=obj/gen/%.o) $(LANE_OBJECTS)
+
+# The renderer's kernels, for each processor, transport and number of wavelengths (0: any): LANES and the instructions for them.
+CPUS = scalar $(if $(filter x86_64,$(shell uname -m)),v2 v3 v4)
+LANES_scalar = -DLANES=1
+LANES_v2 = -DLANES=4 -march=x86-64-v2
+LANES_v3 = -DLANES=8 -march=x86-64-v3
+LANES_v4 = -DLANES=16 -march=x86-64-v4 -mprefer-vector-width=512
+LANE_OBJECTS = $(foreach cpu,$(CPUS),$(foreach t,0 1 2 3,$(foreach w,0 1 3,obj/render/lanes/$(cpu)_$(t)_$(w).o)))
+lane_flags = -g1 -Wno-unused-parameter -Wno-psabi $(LANES_$(word 1,$(1))) -DRENDER=render_$(subst $(space),_,$(1)) -DTRANSPORT=$(word 2,$(1)) $(filter-out -DWAVES=0,-DWAVES=$(word 3,$(1)))
+space = $(subst ,, )
 MAN = $(wildcard man/*.[1-9])
 
 all: programs
@@ -32,6 +42,9 @@ define variant
 $(1)/obj/%.o: lib/%.c
 	@mkdir -p $$(@D)
 	$$(CC) $$(OWN_CFLAGS) $$(EXR_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -c -o $$@ $$<
+$(addprefix $(1)/,$(LANE_OBJECTS)): $(1)/obj/render/lanes/%.o: lib/render/lanes.c
+	@mkdir -p $$(@D)
+	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(2) $$(call lane_flags,$$(subst _, ,$$*)) -MMD -MP -c -o $$@ $$<
 $(1)/obj/gen/%.o: $(B)/gen/%.c
 	@mkdir -p $$(@D)
 	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -c -o $$@ $$<

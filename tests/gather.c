@@ -21,6 +21,40 @@ struct cube {
 	float disc[CLASSES * WAVES];
 };
 
+/* Fat rays are cylinders of that area. */
+static void as_model(struct cube *q, int transport, double area)
+{
+	struct scene *s = &q->scene;
+	s->transport = transport;
+	s->fat = (float)area;
+	s->reach2 = transport == TRANSPORT_EXPLICIT ? s->largest : s->fat / PI;
+	s->reach = sqrtf(s->reach2) + 1e-6f;
+	for (int a = 0; a < 3; a++) {
+		float half = 0.5f * (float)s->cells[a] * s->cell[a];
+		s->grid_centre[a] = s->grid_low[a] + half;
+		s->grid_reached[a] = half + s->reach;
+	}
+}
+
+/* A ray walked to its end. */
+static struct march walk(const struct cube *q, struct ray r, float t_end, int flight, const struct random *random)
+{
+	struct march g;
+	struct waves w = { WAVES, 0 };
+	memset(&g, 0, sizeof g);
+	march_begin(&q->scene, &q->tables, &g, ALL_LANES, r, t_end, flight, w, 1, random);
+	while (any(marching(&q->scene, &g)))
+		march_on(&q->scene, &q->tables, &g, w, 1, random);
+	return g;
+}
+
+static void transmittance(const struct cube *q, struct ray r, float t_end, float *out)
+{
+	struct random none = { 0, 0 };
+	struct march g = walk(q, r, t_end, 0, &none);
+	shadow_end(&q->scene, &q->tables, &g, ALL_LANES, (struct waves){ WAVES, 0 }, out);
+}
+
 /* c[class][wave]: areas in m^2. */
 static struct cube *make(size_t n, const double *c, uint32 seed)
 {
@@ -44,16 +78,17 @@ static struct cube *make(size_t n, const double *c, uint32 seed)
 		memcpy(&m->particle[4 * i + 3], &(int32_t){ (int32_t)(draw_bits(&r, 3) & 1) }, 4);
 	}
 	grid_build(m);
-	q->scene.transport = TRANSPORT_EXPLICIT;
-	q->scene.n_waves = WAVES;
+	q->scene.n_waves = q->scene.carried = WAVES;
+	q->scene.n_groups = 1;
 	q->scene.n_classes = CLASSES;
+	q->scene.only_class = NONE;
 	for (int a = 0; a < 3; a++) {
 		q->scene.cells[a] = m->cells[a];
 		q->scene.grid_low[a] = m->low[a];
 		q->scene.cell[a] = m->cell[a];
-		q->scene.grid_high[a] = m->low[a] + (float)m->cells[a] * m->cell[a];
 	}
-	q->tables = (struct tables){ .disc = q->disc, .particle = m->particle, .first = m->first };
+	q->tables = (struct tables){ .disc = q->disc, .particle = m->particle, .first = (const int *)m->first };
+	as_model(q, TRANSPORT_EXPLICIT, 0);
 	return q;
 }
 
@@ -79,10 +114,10 @@ static int brute(const struct cube *q, struct ray r, float t_end, int wave, cons
 		float depth = dot3(v, r.along);
 		struct vec off = sub(v, scale(r.along, depth));
 		float disc = q->disc[class * WAVES + wave], d2 = dot3(off, off);
-		if (!(depth > 0.f) || !(depth < end) || (int)i == r.skip || !(d2 < (fat ? r.area / PI : disc)))
+		if (!(depth > 0.f) || !(depth < end) || (int)i == r.skip || !(d2 < (fat ? q->scene.fat / PI : disc)))
 			continue;
-		*through *= fat ? 1 - fmin(1, PI * disc / r.area) : 0;
-		if (depth < t_end && (!fat || coin(random, (int)i) < PI * disc / r.area)) {
+		*through *= fat ? 1 - fmin(1, PI * disc / q->scene.fat) : 0;
+		if (depth < t_end && (!fat || coin(random, (int)i) < disc * (PI / q->scene.fat))) {
 			t_end = depth;
 			best = (int)i;
 		}
@@ -93,13 +128,14 @@ static int brute(const struct cube *q, struct ray r, float t_end, int wave, cons
 static struct ray some_ray(uint32 k, size_t n)
 {
 	struct random r = random_of(77, k, 0);
-	struct ray ray = { vec3(3 * draw(&r, 0) - 1.5f, 3 * draw(&r, 1) - 1.5f, 3 * draw(&r, 2) - 1.5f), vec3(0, 0, 0), NONE, 0 };
+	struct ray ray = { .from = vec3(3 * draw(&r, 0) - 1.5f, 3 * draw(&r, 1) - 1.5f, 3 * draw(&r, 2) - 1.5f), .skip = NONE };
 	struct vec to = vec3(draw(&r, 3) - 0.5f, draw(&r, 4) - 0.5f, draw(&r, 5) - 0.5f);
 	ray.along = unit3(sub(to, ray.from));
 	if (k % 16 == 0)           /* along an axis, exactly */
 		ray.along = vec3(0, k % 32 ? 1 : -1, 0);
 	if (k % 3 == 0)
 		ray.skip = (int)(draw_bits(&r, 6) % n);
+	ray.inverse = inverse3(ray.along);
 	return ray;
 }
 
@@ -107,23 +143,21 @@ static void compare(size_t n, double area, double wide, const char *what)
 {
 	const double c[] = { area, 1.2 * area, 0.9 * area, 3 * area, 2.5 * area, 3.5 * area };
 	struct cube *q = make(n, c, 5);
-	struct waves w = { WAVES, 0, 1 };
 	long wrong = 0, met = 0, rays = 2000;
 	double off = 0;
-	q->scene.transport = wide > 0 ? TRANSPORT_FAT_RAY : TRANSPORT_EXPLICIT;
+	as_model(q, wide > 0 ? TRANSPORT_FAT_RAY : TRANSPORT_EXPLICIT, wide);
 	for (uint32 k = 0; k < rays; k++) {
 		float end = k % 5 ? FAR : 1.2f;
 		struct ray r = some_ray(k, n);
 		struct random random = random_of(3, k, 0);
-		struct gathered g, all;
-		r.area = (float)wide;
-		gather(&q->scene, &q->tables, r, end, w, &random, GATHER_FIRST, &g);
-		gather(&q->scene, &q->tables, r, end, w, &random, GATHER_ALL, &all);
+		struct gather g = walk(q, r, end, 1, &random).gather;
+		float all[WAVES];
+		transmittance(q, r, end, all);
 		for (int j = 0; j < WAVES; j++) {
 			double through;
 			wrong += g.id[j] != brute(q, r, end, j, &random, &through);
 			met += g.id[j] != NONE;
-			off = fmax(off, fabs(all.through[j] - through));
+			off = fmax(off, fabs(all[j] - through));
 		}
 	}
 	ok(!wrong && met > 100, "%s: %ld rays meet what looking at every particle finds (%ld meetings, %ld differ)", what, rays, met, wrong);
@@ -138,25 +172,26 @@ static void flights(int attenuation)
 	const double area = 1e-3, c[] = { area, area, area, 2 * area, 2 * area, 2 * area };
 	const int n = 200000;
 	struct cube *q = make(1000, c, 11);
-	struct waves w = { WAVES, 0, 1 };
-	struct ray r = { vec3(-1, 0.05f, -0.02f), vec3(1, 0, 0), NONE, 5e-3f };
-	float through[WAVES], event[WAVES];
+	struct waves w = { WAVES, 0 };
+	struct ray r = { vec3(-1, 0.05f, -0.02f), vec3(1, 0, 0), inverse3(vec3(1, 0, 0)), NONE };
+	float through[WAVES], event[CARRIED];
 	double passed = 0, depth = 0, depth2 = 0;
-	q->scene.transport = TRANSPORT_FAT_RAY;
+	as_model(q, TRANSPORT_FAT_RAY, 5e-3);
 	q->scene.attenuation = attenuation;
-	transmittance(&q->scene, &q->tables, r, FAR, w, through);
+	transmittance(q, r, FAR, through);
 	for (int k = 0; k < n; k++) {
 		struct random random = random_of(21, (uint32)k, 0);
-		struct collision hit = free_flight(&q->scene, &q->tables, r, FAR, w, 1, &random, 0, event);
-		passed += !hit.happened;
-		depth += hit.happened ? hit.point.x + 1 : 0;
-		depth2 += hit.happened ? pow(hit.point.x + 1, 2) : 0;
+		struct march g = walk(q, r, FAR, 1, &random);
+		struct collision hit = flight_end(&q->scene, &q->tables, &g, ALL_LANES, w, 1, &random, event);
+		passed += !any(hit.happened);
+		depth += any(hit.happened) ? hit.point.x + 1 : 0;
+		depth2 += any(hit.happened) ? pow(hit.point.x + 1, 2) : 0;
 	}
 	/* E[depth; met] = int (T(x) - T(end)) dx along the ray, T by looking at the particles before x */
 	double want = 0, step = 1e-3;
 	for (double x = step / 2; x < 2; x += step) {
 		float before[WAVES];
-		transmittance(&q->scene, &q->tables, r, (float)x, w, before);
+		transmittance(q, r, (float)x, before);
 		want += step * ((double)before[1] - through[1]);
 	}
 	double z = (passed / n - through[1]) / sqrt(through[1] * (1 - through[1]) / n);
@@ -172,7 +207,7 @@ static size_t poisson(double mean, uint32 seed)
 {
 	struct random r = random_of(99, seed, 0);
 	size_t n = 0;
-	for (double sum = 0;; n++, next_vertex(&r)) {
+	for (double sum = 0;; n++, next_vertex(&r, ALL_LANES)) {
 		sum -= log(1 - draw(&r, 0));
 		if (sum > mean)
 			return n;
@@ -190,10 +225,9 @@ static struct moments transmittances(double tau, double c, double a, int transpo
 	const double all[] = { c, c, c, c, c, c };
 	const int side = 24;       /* rays 1/24 m apart; the cylinder's radius must be below half that */
 	struct moments m = { 0 };
-	struct waves w = { WAVES, 0, 1 };
 	for (int k = 0; k < cubes; k++) {
 		struct cube *q = make(poisson(tau / c, (uint32)(k + 1)), all, (uint32)(1000 + k));
-		q->scene.transport = transport;
+		as_model(q, transport, a);
 		q->scene.attenuation = attenuation;
 		for (int axis = 0; axis < 3; axis++)
 			for (int i = 0; i < side * side; i++) {
@@ -202,8 +236,8 @@ static struct moments transmittances(double tau, double c, double a, int transpo
 				d[axis] = 1;
 				p[(axis + 1) % 3] = ((float)(i % side) + 0.5f) / (float)side - 0.5f;
 				p[(axis + 2) % 3] = ((float)(i / side) + 0.5f) / (float)side - 0.5f;
-				struct ray r = { load3(p), load3(d), NONE, (float)a };
-				transmittance(&q->scene, &q->tables, r, FAR, w, through);
+				struct ray r = { load3(p), load3(d), inverse3(load3(d)), NONE };
+				transmittance(q, r, FAR, through);
 				for (int e = 0; e < 5; e++)
 					m.sum[e] += pow(through[1], e);
 				m.n++;

@@ -35,7 +35,7 @@ static void map_make(int width, int height, struct map *m, struct scene *s, stru
 	memset(t, 0, sizeof *t);
 	ok(map_cdf(m, &cdf) == (size_t)height + 1 + (size_t)height * ((size_t)width + 1), "%d x %d: integrals made", width, height);
 	t->map = m->rgb;
-	t->map_cdf = cdf;
+	t->map_cdf = (const int *)cdf;
 }
 
 static void map_test(int width, int height)
@@ -48,7 +48,7 @@ static void map_test(int width, int height)
 	for (int r = 0; r < height; r++)
 		for (int c = 0; c < width; c++) {
 			double angle = 2 * M_PI / width * (cos(M_PI * r / height) - cos(M_PI * (r + 1) / height));
-			all += map_density(&s, &t, r, c) * angle;
+			all += map_density(&s, &t, ALL_LANES, r, c) * angle;
 			spheres += texel_angle(&s, r);
 			flux += m.rgb[3 * (r * width + c) + 1] * angle;
 			worst = fmax(worst, fabs(texel_angle(&s, r) / angle - 1));
@@ -63,13 +63,13 @@ static void map_test(int width, int height)
 	double sum = 0, sum2 = 0, length = 0;
 	for (int i = 0; i < n; i++) {
 		int row, column, r, c;
-		struct vec d = map_draw(&s, &t, bits(), bits(), &row, &column);
+		struct vec d = map_draw(&s, &t, ALL_LANES, bits(), bits(), &row, &column);
 		map_locate(&s, d, &r, &c);
 		int turn = abs(column - c);
 		astray += r != row || c != column;
 		far += abs(r - row) > 1 || (r != 0 && r != height - 1 && turn > 1 && turn < width - 1);
 		dark += row == height / 3;
-		double v = m.rgb[3 * (row * width + column) + 1] / map_density(&s, &t, row, column);
+		double v = m.rgb[3 * (row * width + column) + 1] / map_density(&s, &t, ALL_LANES, row, column);
 		sum += v;
 		sum2 += v * v;
 		length = fmax(length, fabs(dot3(d, d) - 1));
@@ -98,8 +98,8 @@ int main(void)
 	struct tables t = { .map = one.rgb };
 	uint32 *cdf;
 	ok(map_cdf(&one, &cdf) == 4, "a map of one texel");
-	t.map_cdf = cdf;
-	ok(fabs(map_density(&s, &t, 0, 0) * 4 * M_PI - 1) < 1e-6, "is drawn evenly");
+	t.map_cdf = (const int *)cdf;
+	ok(fabs(map_density(&s, &t, ALL_LANES, 0, 0) * 4 * M_PI - 1) < 1e-6, "is drawn evenly");
 	struct map black = { .width = 1, .height = 1, .rgb = (float[]){ 0, 0, 0 } };
 	free(cdf);
 	ok(map_cdf(&black, &cdf) == 0, "a black one is not drawn");
@@ -136,7 +136,7 @@ int main(void)
 			x[0] = 0.99999994f;
 		if (i % 4 == 2)    /* a direction that grazes */
 			x[3] *= 1e-6f;
-		struct ray r = { vec3(x[0], x[1], x[2]), unit3(vec3(x[3], x[4], x[5])), NONE, 0 };
+		struct ray r = { .from = vec3(x[0], x[1], x[2]), .along = unit3(vec3(x[3], x[4], x[5])), .skip = NONE };
 		int which;
 		float far = surface_distance(&s, r, &which);
 		leaks += which == NONE;
@@ -147,9 +147,11 @@ int main(void)
 			bad += !(rgb[0] == 0.f);
 		}
 		struct drawn d;
-		if (light_draw(&s, &t, i % 6, r.from, bits(), bits(), &d)) {
+		struct random random = { bits(), bits() };
+		light_draw(&s, &t, ALL_LANES, i % 6, r.from, &random, &d);
+		if (any(d.shines)) {
 			r.along = d.along;
-			blocked += light_blocked(&s, r, &d);
+			blocked += any(light_blocked(&s, r, &d));
 			bad += !(d.density > 0.f && d.t_end > 0.f && d.t_end < 4.f);
 		}
 	}

@@ -118,6 +118,7 @@ int main(int argc, char **argv)
 	render(&job, cl, (uint32)from, (uint32)to, (int)threads);
 	if (cl)
 		cl_finish(cl);
+	job_finish(&job);
 	if (job.overflow)
 		die(path, "the light is too strong: a pixel's samples sum to more than 2^32; scale the lights down");
 	struct image image;

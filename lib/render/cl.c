@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #define DEVICES_MAX 64
-#define N_BUFFERS 15       /* the scene and the tables */
+#define N_BUFFERS 16       /* the scene and the tables */
 
 struct cl {
 	struct job *job;
@@ -127,10 +127,9 @@ struct cl *cl_start(struct job *j, int device)
 	const struct tables *t = &j->tables;
 	const struct { const void *p; size_t size; } table[N_BUFFERS] = {
 		{ &j->scene, sizeof j->scene }, { t->extinction, j->n_extinction * 4 }, { t->disc, j->n_disc * 4 },
-		{ t->albedo, j->n_albedo * 4 }, { t->colour, j->n_colour * 4 },
-		{ t->node, j->n_node * 4 }, { t->theta, j->n_theta * 4 }, { t->p, j->n_p * 4 }, { t->cdf, j->n_cdf * 4 },
-		{ t->particle, j->n_particle * 4 }, { t->first, j->n_first * 4 }, { t->voxel, j->n_voxel * 4 },
-		{ t->count, j->n_count * 4 },
+		{ t->albedo, j->n_albedo * 4 }, { t->colour, j->n_colour * 4 }, { t->phase, j->n_phase * 4 }, { t->interval, j->n_interval * 4 },
+		{ t->alias, j->n_alias * 4 }, { t->angle, j->n_angle * 4 }, { t->particle, j->n_particle * 4 }, { t->first, j->n_first * 4 },
+		{ t->brick, j->n_brick * 4 }, { t->voxel, j->n_voxel * 4 }, { t->count, j->n_count * 4 },
 		{ t->map, j->n_map * 4 }, { t->map_cdf, j->n_map_cdf * 4 },
 	};
 	cl_uint arg = 0;

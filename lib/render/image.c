@@ -10,9 +10,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Names of the sums; those up to SUM_ALPHA, divided by the unit and the samples, are finished channels. */
-static const char *const names[FILM_SUMS] = { "R", "G", "B", "single.R", "single.G", "single.B", "multiple.R", "multiple.G",
-	"multiple.B", "A", "depth.Z", "Y", "YY0", "YY1" };
+/* Names of the sums. */
+static const char *const names[FILM_SUMS] = { "R", "single.R", "multiple.R", "A", "depth.Z", "Y", NULL, NULL, "YY0", "YY1",
+	"G", "single.G", "multiple.G", "B", "single.B", "multiple.B" };
+
+/* Those that, divided by the unit and the samples, are finished channels. */
+static const int finished[] = { SUM_OF(SUM_ALL, 0), SUM_OF(SUM_ALL, 1), SUM_OF(SUM_ALL, 2), SUM_OF(SUM_SINGLE, 0), SUM_OF(SUM_SINGLE, 1),
+	SUM_OF(SUM_SINGLE, 2), SUM_OF(SUM_MULTIPLE, 0), SUM_OF(SUM_MULTIPLE, 1), SUM_OF(SUM_MULTIPLE, 2), SUM_ALPHA };
 
 typedef unsigned __int128 uint128;
 
@@ -147,10 +151,10 @@ static void layers(struct exr *e, const struct image *m)
 {
 	long long n = samples(m);
 	size_t stride = (size_t)m->n_sums;
-	for (int c = 0; c <= SUM_ALPHA; c++) {
-		float *out = exr_add(e, names[c]);
+	for (size_t k = 0; k < sizeof finished / sizeof *finished; k++) {
+		float *out = exr_add(e, names[finished[k]]);
 		for (size_t i = 0; i < pixels(m); i++)
-			out[i] = (float)((double)m->sum[i * stride + (size_t)c] / FILM_UNIT / (double)n);
+			out[i] = (float)((double)m->sum[i * stride + (size_t)finished[k]] / FILM_UNIT / (double)n);
 	}
 	for (int w = 0; w < m->n_waves; w++) {
 		float *out = exr_add(e, m->wave[w]);
@@ -169,6 +173,8 @@ static void layers(struct exr *e, const struct image *m)
 
 /* -------------------------------------------------------------------- sums, each as two channels of 32 bits */
 
+static int in_use(int sum) { return sum >= FILM_SUMS || names[sum]; }
+
 static char *half_name(const struct image *m, int sum, int half)
 {
 	return xtext("sum.%s.%s", sum < FILM_SUMS ? names[sum] : m->wave[sum - FILM_SUMS], half ? "hi" : "lo");
@@ -177,6 +183,8 @@ static char *half_name(const struct image *m, int sum, int half)
 static void put_sums(struct exr *e, const struct image *m)
 {
 	for (int k = 0; k < 2 * m->n_sums; k++) {
+		if (!in_use(k / 2))
+			continue;
 		char *name = half_name(m, k / 2, k % 2);
 		float *out = exr_add(e, name);
 		e->channel[e->n - 1].is_uint = 1;
@@ -191,6 +199,8 @@ static void put_sums(struct exr *e, const struct image *m)
 static void get_sums(const char *path, const struct exr *e, struct image *m)
 {
 	for (int k = 0; k < 2 * m->n_sums; k++) {
+		if (!in_use(k / 2))
+			continue;
 		char *name = half_name(m, k / 2, k % 2);
 		const struct exr_channel *c = exr_find(e, name);
 		if (!c || !c->is_uint)

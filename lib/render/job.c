@@ -47,6 +47,7 @@ static void to_floats(const double *from, float *to)
 		to[i] = (float)from[i];
 }
 
+static int grey(const float *rgb) { return rgb[0] == rgb[1] && rgb[1] == rgb[2]; }
 static int shines(const float *rgb) { return rgb[0] > 0 || rgb[1] > 0 || rgb[2] > 0; }
 
 static struct light sun_light(const struct sun *sun)
@@ -60,6 +61,8 @@ static struct light sun_light(const struct sun *sun)
 	}
 	unit(towards);
 	to_floats(towards, l.at);
+	struct vec inverse = inverse3(load3(l.at));
+	memcpy(l.inverse, (float[]){ inverse.x, inverse.y, inverse.z }, sizeof l.inverse);
 	l.cap = (float)cap;
 	l.density = cap > 0 ? (float)(1 / (2 * M_PI * cap)) : 0;
 	return l;
@@ -101,7 +104,7 @@ static void lights(struct job *j, const struct scenefile *f)
 	}
 	uint32 *cdf = NULL;
 	j->n_map_cdf = f->map.width ? map_cdf(&f->map, &cdf) : 0;
-	j->tables.map_cdf = cdf;
+	j->tables.map_cdf = (const int *)cdf;
 	if (j->n_map_cdf) {
 		s->map_width = f->map.width;
 		s->map_height = f->map.height;
@@ -119,6 +122,10 @@ static void lights(struct job *j, const struct scenefile *f)
 		if (!dark)
 			s->n_drawn = s->n_lights;
 	}
+	/* one channel will do where nothing has a colour */
+	s->channels = grey(s->environment) && !f->map.width && grey(j->tables.colour) && j->n_colour == 6 ? 1 : 3;
+	for (int i = 0; i < s->n_lights; i++)
+		s->channels = grey(s->light[i].rgb) ? s->channels : 3;
 	s->pick = s->n_drawn ? 1.f / (float)s->n_drawn : 0;
 	s->has_ground = f->has_ground;
 	s->ground_height = (float)(f->ground_height - f->medium_position[1]);
@@ -160,62 +167,47 @@ static void optics(struct job *j, const struct medium *m)
 		}
 	}
 	free(rgb);
-	j->tables = (struct tables){ extinction, disc, albedo, colour, m->node, m->theta, m->p, m->cdf, m->particle, m->first,
-		NULL, NULL, NULL, NULL };
+	angles_make(&j->angles, m->n_classes + 1, m->n_waves, m->node, m->theta, m->p, m->cdf);
+	const struct angles *g = &j->angles;
+	j->tables = (struct tables){ .extinction = extinction, .disc = disc, .albedo = albedo, .colour = colour, .phase = g->phase,
+		.interval = g->interval, .alias = g->alias, .angle = g->angle, .particle = m->particle, .first = (const int *)m->first };
 	j->n_extinction = waves;
 	j->n_disc = classes * waves;
 	j->n_albedo = (classes + 1) * waves;
 	j->n_colour = 6 * waves;
-	j->n_node = 2 * (classes + 1);
-	j->n_theta = m->n_nodes;
-	j->n_p = j->n_cdf = m->n_nodes * waves;
+	j->scene.isotropic = g->isotropic;
+	j->n_phase = g->n_phase;
+	j->n_interval = g->n_interval;
+	j->n_alias = g->n_alias;
+	j->n_angle = g->n_angle;
 	j->n_particle = 4 * m->n_particles;
 	j->n_first = m->n_first;
-}
-
-/* Extinction in the cubes of the finest level. A cube that the box cuts has its particles in the part inside. */
-static float *extinctions(const struct medium *m, size_t n)
-{
-	size_t waves = (size_t)m->n_waves, classes = (size_t)m->n_classes;
-	float *sigma = xalloc(n * waves, sizeof *sigma);
-	for (size_t v = 0; v < n; v++) {
-		const int32_t i[3] = { (int32_t)(v % (size_t)m->voxels[0]), (int32_t)(v / (size_t)m->voxels[0] % (size_t)m->voxels[1]),
-			(int32_t)(v / (size_t)m->voxels[0] / (size_t)m->voxels[1]) };
-		double volume = 1;
-		for (int a = 0; a < 3; a++)
-			volume *= fmin(m->voxel, 2 * m->half[a] - i[a] * m->voxel);
-		for (size_t w = 0; w < waves; w++) {
-			double c = 0;
-			for (size_t k = 0; k < classes; k++)
-				c += m->voxel_count[v * classes + k] * m->c_ext[k * waves + w];
-			sigma[v * waves + w] = (float)(c * 1e-12 / volume);
-		}
-	}
-	return sigma;
 }
 
 static void voxels(struct job *j, const struct medium *m)
 {
 	struct scene *s = &j->scene;
-	size_t n = (size_t)m->voxels[0] * (size_t)m->voxels[1] * (size_t)m->voxels[2];
 	s->counted = m->n_particles > 0;
 	for (int a = 0; a < 3; a++) {
-		s->voxels[a] = m->voxels[a];
-		s->voxel_low[a] = (float)-m->half[a];
-		s->voxel_high[a] = (float)m->half[a];
-		s->voxel[a] = (float)(s->counted ? m->voxel : 2 * m->half[a] / m->voxels[a]);
+		/* cells lie between the nodes of a density, and half of one before the first */
+		double side = s->counted ? m->voxel : 2 * m->half[a] / m->voxels[a];
+		s->voxels[a] = m->voxels[a] + !s->counted;
+		s->voxel_low[a] = (float)(-m->half[a] - (s->counted ? 0 : side / 2));
+		s->voxel[a] = (float)side;
+		s->voxels_per_m[a] = (float)(1 / side);
 	}
 	if (s->transport != TRANSPORT_GRID)
 		return;
+	bricks_make(&j->bricks, m);
+	memcpy(s->bricks, j->bricks.size, sizeof s->bricks);
+	j->tables.brick = j->bricks.brick;
+	j->tables.voxel = j->bricks.voxel;
+	j->n_brick = j->bricks.n_brick;
+	j->n_voxel = j->bricks.n_voxel;
 	if (s->counted) {
-		j->voxel = extinctions(m, n);
-		j->n_voxel = n * (size_t)m->n_waves;
-		j->tables.count = m->voxel_count;
-		j->n_count = n * (size_t)m->n_classes;
-	} else {
-		j->n_voxel = n;
+		j->tables.count = (const int *)m->voxel_count;
+		j->n_count = (size_t)m->voxels[0] * (size_t)m->voxels[1] * (size_t)m->voxels[2] * (size_t)m->n_classes;
 	}
-	j->tables.voxel = s->counted ? j->voxel : m->density;
 }
 
 /* Fat rays have the area of a pixel's footprint at the medium's nearest depth (eq 23 with kappa 1), and no less than any particle. */
@@ -236,6 +228,7 @@ void job_make(struct job *j, const struct scenefile *file, const struct medium *
               uint32 seed)
 {
 	struct scene *s = &j->scene;
+	double span = 0;           /* of the grid's coordinates */
 	memset(j, 0, sizeof *j);
 	s->seed = seed;
 	s->transport = transport;
@@ -247,15 +240,26 @@ void job_make(struct job *j, const struct scenefile *file, const struct medium *
 	lights(j, file);
 	s->n_waves = medium->n_waves;
 	s->n_groups = (medium->n_waves + MAX_WAVES - 1) / MAX_WAVES;
+	s->carried = (medium->n_waves + s->n_groups - 1) / s->n_groups;
 	s->n_classes = medium->n_classes;
+	/* particles scatter by their class, everything else as the mixture */
+	s->only_class = s->transport == TRANSPORT_CONTINUOUS || !medium->n_particles ? medium->n_classes : medium->n_classes == 1 ? 0 : -1;
 	s->round = medium->round;
 	for (int a = 0; a < 3; a++) {
 		s->extent[a] = (float)medium->half[a];
 		s->cells[a] = medium->cells[a];
 		s->grid_low[a] = medium->low[a];
 		s->cell[a] = medium->cell[a];
-		s->grid_high[a] = (float)(medium->low[a] + (double)medium->cells[a] * medium->cell[a]);
+		double high = medium->low[a] + (double)medium->cells[a] * medium->cell[a];
+		s->grid_centre[a] = (float)((medium->low[a] + high) / 2);
+		s->grid_reached[a] = (float)((high - medium->low[a]) / 2);
+		span = fmax(span, fmax(fabs(medium->low[a]), fabs(high)));
 	}
+	s->largest_inverse = 1 / s->largest;
+	s->reach2 = transport == TRANSPORT_EXPLICIT ? s->largest : s->fat / (float)M_PI;
+	s->reach = (float)(sqrt(s->reach2) + 2e-6 * span);
+	for (int a = 0; a < 3; a++)
+		s->grid_reached[a] += s->reach;
 }
 
 void job_film(struct job *j, int spectral)
@@ -264,7 +268,7 @@ void job_film(struct job *j, int spectral)
 	double eye = 0, corner = 0;
 	int exponent;
 	for (int a = 0; a < 3; a++) {
-		double most = fmax(s->extent[s->round ? 0 : a], s->cells[a] ? fmax(-s->grid_low[a], s->grid_high[a]) : 0);
+		double most = fmax(s->extent[s->round ? 0 : a], s->cells[a] ? fabs(s->grid_centre[a]) + s->grid_reached[a] : 0);
 		eye += (double)s->eye[a] * s->eye[a];
 		corner += most * most;
 	}
@@ -275,13 +279,30 @@ void job_film(struct job *j, int spectral)
 	j->film = xalloc((size_t)s->width * (size_t)s->height, (size_t)s->film_sums * sizeof *j->film);
 }
 
+void job_finish(struct job *j)
+{
+	size_t pixels = (size_t)j->scene.width * (size_t)j->scene.height;
+	for (size_t i = 0; i < pixels; i++) {
+		int64 *sum = j->film + i * (size_t)j->scene.film_sums;
+		for (int c = 0; c < 3; c++) {
+			int64 *own = &sum[SUM_OF(0, c)];
+			if (c >= j->scene.channels)
+				memcpy(own, sum, 3 * sizeof *own);
+			else
+				j->overflow |= __builtin_add_overflow(own[SUM_ALL], own[SUM_SINGLE], &own[SUM_ALL])
+				    | __builtin_add_overflow(own[SUM_ALL], own[SUM_MULTIPLE], &own[SUM_ALL]);
+		}
+	}
+}
+
 void job_free(struct job *j)
 {
 	free((void *)(size_t)j->tables.extinction);
 	free((void *)(size_t)j->tables.disc);
 	free((void *)(size_t)j->tables.albedo);
 	free((void *)(size_t)j->tables.colour);
-	free(j->voxel);
 	free((void *)(size_t)j->tables.map_cdf);
+	angles_free(&j->angles);
+	bricks_free(&j->bricks);
 	free(j->film);
 }

@@ -3,6 +3,8 @@
 #define RENDER_JOB_H
 
 #include "medium/medium.h"
+#include "render/angles.h"
+#include "render/bricks.h"
 #include "render/kern/scene.h"
 #include "render/scenefile.h"
 
@@ -13,9 +15,10 @@ struct job {
 	struct scene scene;
 	struct tables tables;
 	/* elements of each table, in the order of struct tables */
-	size_t n_extinction, n_disc, n_albedo, n_colour, n_node, n_theta, n_p, n_cdf, n_particle, n_first, n_voxel, n_count,
+	size_t n_extinction, n_disc, n_albedo, n_colour, n_phase, n_interval, n_alias, n_angle, n_particle, n_first, n_brick, n_voxel, n_count,
 		n_map, n_map_cdf;
-	float *voxel;              /* extinctions in cubes, made here */
+	struct angles angles;      /* what is made here of the medium */
+	struct bricks bricks;
 	int64 *film;               /* [pixel][scene.film_sums], see kern/film.h */
 	int overflow;              /* a sum went beyond the film's limit */
 };
@@ -27,9 +30,14 @@ void job_make(struct job *j, const struct scenefile *file, const struct medium *
 /* job_film - an empty film; spectral: with sums for every wavelength. */
 void job_film(struct job *j, int spectral);
 
+/* job_finish - what can be told of the film's sums only when all samples are in. */
+void job_finish(struct job *j);
+
 void job_free(struct job *j);
 
-/* render_c - add samples [first, first + n) of every pixel to the film, by the C build of the kernels. */
+/* render_c - add samples [first, first + n) of every pixel to the film, by the C build of the kernels for this processor: the widest
+ * lanes that it has, unless MOTES_CPU in the environment asks for scalar, v2, v3 or v4. Dies where that is none of them, or more than
+ * the processor has. The film does not depend on it. */
 void render_c(struct job *j, uint32 first, uint32 n, int threads);
 
 /* The same by OpenCL, whose device holds the tables and the film meanwhile. Each dies with one line on any failure. */

@@ -7,106 +7,106 @@
 
 #define FILM_UNIT 1073741824.0     /* 2^30 */
 
-/* The sums of a pixel. Three are red, green and blue. */
+/* The sums of a pixel, added eight at a time: all that one channel needs, red, comes first; then the square, apart from them since
+ * it is added by itself; then green and blue. The gaps are free. */
 enum {
-	SUM_ALL,                   /* the parts below and what was seen unscattered */
-	SUM_SINGLE = 3,            /* scattered once by the medium */
-	SUM_MULTIPLE = 6,          /* more often */
-	SUM_ALPHA = 9,             /* 1 where the camera's ray was scattered, as a mean over all wavelengths */
+	SUM_ALL,                   /* the two below and what was seen unscattered */
+	SUM_SINGLE,                /* scattered once by the medium */
+	SUM_MULTIPLE,              /* more often */
+	SUM_ALPHA,                 /* 1 where the camera's ray was scattered, as a mean over all wavelengths */
 	SUM_DEPTH,                 /* how far away, times the former, in units of 2^-30 / depth_scale */
 	SUM_LUMINANCE,
-	SUM_SQUARE,                /* of luminance: 128 bits, low half first, in units of 2^-60 */
-	FILM_SUMS = 14             /* then, if spectral, the radiance at each wavelength */
+	SUM_SQUARE = 8,            /* of luminance: 128 bits, low half first, in units of 2^-60 */
+	SUM_GREEN = 10,            /* all, single, multiple; then blue */
+	FILM_SUMS = 18             /* then, if spectral, the radiance at each wavelength */
 };
+#define SUM_OF(kind, channel) ((channel) ? SUM_GREEN + 3 * ((channel) - 1) + (kind) : (kind))
 
-/* The integer nearest to v 2^30; saturates (NaN too) at +-FILM_MOST. */
-#define FILM_MOST ((int64)2147483520 * 1073741824)
-FN int64 film_value(float v)
+#define FILM_MOST 2147483520.f      /* a sample's value is smaller in size */
+#define FILM_LIMIT ((int64)1 << 62)
+
+/* The integers nearest to v 2^30, halves away from 0. */
+FN l8 film_integers(f8 v)
 {
-	v = v < 2147483520.f ? v : 2147483520.f;
-	v = v > -2147483520.f ? v : -2147483520.f;
-	int whole = (int)v;
-	float rest = (v - (float)whole) * 1073741824.f;
-	int part = (int)rest;
-	rest -= (float)part;
-	part += (rest >= 0.5f) - (rest <= -0.5f);
-	return (int64)whole * 1073741824 + part;
+	f8 units = v * 1073741824.f;
+	l8 n = l8_of(units);
+	return n + l8_of(2.f * (units - f8_of(n)));    /* the rest is exact: 0 from 2^24 on */
 }
 
-/* Adds v, of up to 3 FILM_MOST; returns 1, the sum being 0 then, where v or the sum is out of range. */
-FN int film_add(int64 *sum, int64 v)
+/* Adds eight to as many sums; returns what has its highest bit set where a sum passes its limit. */
+FN l8 film_add8(GLOBAL int64 *sum, l8 n)
 {
-	const int64 limit = (int64)1 << 62;
-	*sum = v < FILM_MOST && v > -FILM_MOST ? *sum + v : limit + 1;
-	if (*sum <= limit && *sum >= -limit)
-		return 0;
-	*sum = 0;
-	return 1;
+	l8 all = l8_load(sum) + n;
+	l8_store(sum, all);
+	return (all + FILM_LIMIT) | (FILM_LIMIT - all);
 }
 
-/* Adds v^2 to sum[2], for |v| <= 2^61; returns 1 where the sum is beyond 2^127. */
-FN int film_add_square(int64 *sum, int64 v)
+/* Adds v^2 to sum[2], for |v| <= 2^61; returns what has its highest bit set where the sum is beyond 2^127. */
+FN uint64 film_add_square(GLOBAL int64 *sum, int64 v)
 {
-	uint64 a = (uint64)(v < 0 ? -v : v), high = a >> 32, low = a & 0xffffffffu, cross = 2 * (high * low);
-	uint64 before = (uint64)sum[0], square = low * low, after = before + square, carry = after < before;
-	high = high * high + (cross >> 32) + carry;
-	before = after;
-	after += cross << 32;
-	high += after < before;
-	sum[0] = (int64)after;
-	high += (uint64)sum[1];
+	uint64 a = (uint64)(v < 0 ? -v : v), low = (uint64)sum[0] + a * a, high = (uint64)sum[1] + high_product(a, a) + (low < a * a);
+	sum[0] = (int64)low;
 	sum[1] = (int64)(high & 0x7fffffffffffffff);
-	return high >> 63 != 0;
+	return high;
 }
 
-/* A path that is over. */
-FN int film_take(const struct scene *s, int64 *sum, const struct path *p)
+/* Lanes of m whose value is too large, or no number: these become FILM_MOST. */
+FN mv film_clamp(mv m, fv *value)
 {
-	int bad = 0;
-	float rgb[3];
-	for (int i = 0; i < 3; i++) {
-		int64 seen = film_value(p->rgb[i]), all = seen;
-		rgb[i] = p->rgb[i];
-		if (p->order) {
-			int64 once = p->order == 1 ? seen : film_value(p->before[1][i]), more = p->order == 1 ? 0 : seen;
-			bad |= film_add(sum + SUM_SINGLE + i, once) | film_add(sum + SUM_MULTIPLE + i, more);
-			all = film_value(p->before[0][i]) + once + more;
-			rgb[i] += p->before[0][i] + p->before[1][i];
-		}
-		bad |= film_add(sum + SUM_ALL + i, all);
+	mv good = lt(size_of(*value), FV(FILM_MOST));
+	*value = SEL(good, *value, FV(FILM_MOST));
+	return m & NOT(good);
+}
+
+/* What the paths of lanes m add to each of the sums, but the square, and but for what job_finish makes of them: SUM_ALL gets what
+ * was seen unscattered. Returns the lanes that have what no sum can take. */
+FN mv film_values(const struct scene *s, struct path *p, mv m, fv *value)
+{
+	mv scattered = ilt(IV(0), p->order), often = ilt(IV(1), p->order), bad = NO_LANE;
+	fv zero = FV(0.f), all[3] = { zero, zero, zero };
+	for (int k = 0; k < FILM_SUMS; k++)
+		value[k] = zero;
+	for (int c = 0; c < s->channels; c++) {
+		/* what was seen last belongs to the order that the path ended in */
+		fv last = p->rgb[c], none = p->before[0][c], once = p->before[1][c];
+		bad |= film_clamp(m, &last) | film_clamp(m, &none) | film_clamp(m, &once);
+		value[SUM_OF(SUM_ALL, c)] = SEL(scattered, none, last);
+		value[SUM_OF(SUM_SINGLE, c)] = SEL(often, once, SEL(scattered, last, zero));
+		value[SUM_OF(SUM_MULTIPLE, c)] = SEL(often, last, zero);
+		all[c] = value[SUM_OF(SUM_ALL, c)] + value[SUM_OF(SUM_SINGLE, c)] + value[SUM_OF(SUM_MULTIPLE, c)];
 	}
-	int64 luminance = film_value(0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2]);
-	bad |= film_add(sum + SUM_LUMINANCE, luminance) | film_add_square(sum + SUM_SQUARE, luminance);
-	if (p->depth >= 0.f) {     /* wavelengths of smaller groups are heroes more often */
-		float share = (float)(p->waves.n * s->n_groups) / (float)s->n_waves;
-		bad |= film_add(sum + SUM_ALPHA, film_value(share)) | film_add(sum + SUM_DEPTH, film_value(share * (p->depth * s->depth_scale)));
-	}
+	mv seen = le(zero, p->depth);    /* wavelengths of smaller groups are heroes more often */
+	fv share = s->n_groups == 1 ? FV(1.f) : to_float(p->waves.n * s->n_groups) / (float)s->n_waves;
+	value[SUM_ALPHA] = SEL(seen, share, zero);
+	value[SUM_DEPTH] = SEL(seen, share * (p->depth * s->depth_scale), zero);
+	value[SUM_LUMINANCE] = s->channels == 1 ? all[0] : 0.2126f * all[0] + 0.7152f * all[1] + 0.0722f * all[2];
+	bad |= film_clamp(m, &value[SUM_LUMINANCE]);
+	if (s->spectral)
+		EACH_WAVE(j)
+			bad |= film_clamp(m, &p->spectrum[j]);
 	return bad;
 }
 
-/* Samples [first, first + n) of a pixel added to its film; *overflow is set where a sum passes 2^32. */
-FN void render_pixel(const struct scene *s, const struct tables *tab, GLOBAL int64 *film, GLOBAL int *overflow, uint32 pixel,
-                     uint32 first, uint32 n)
+/* Those of lane i added to its pixel, and the path's spectrum. The highest bit of any of *over or of what it returns is set where a
+ * sum passes its limit. */
+FN uint64 film_take(const struct scene *s, GLOBAL int64 *sum, const struct path *p, const fv *value, int i, l8 *over)
 {
-	int64 sum[FILM_SUMS];
-	int bad = 0;
-	for (int i = 0; i < FILM_SUMS; i++)
-		sum[i] = film[i];
-	for (uint32 k = 0; k < n; k++) {
-		struct path p = path_begin(s, pixel, first + k);
-		while (path_bounce(s, tab, &p))
-			;
-		bad |= film_take(s, sum, &p);
-		for (int j = 0; s->spectral && j < p.waves.n; j++) {
-			int64 wave = film[FILM_SUMS + wave_of(p.waves, j)];
-			bad |= film_add(&wave, film_value(p.spectrum[j]));
-			film[FILM_SUMS + wave_of(p.waves, j)] = wave;
-		}
+#define EIGHT(v) F8(LANE_FLOAT((v)[0], i), LANE_FLOAT((v)[1], i), LANE_FLOAT((v)[2], i), LANE_FLOAT((v)[3], i), \
+                    LANE_FLOAT((v)[4], i), LANE_FLOAT((v)[5], i), LANE_FLOAT((v)[6], i), LANE_FLOAT((v)[7], i))
+	l8 n = film_integers(EIGHT(value));
+	*over |= film_add8(sum, n);
+	uint64 high = film_add_square(sum + SUM_SQUARE, PART(n, SUM_LUMINANCE));
+	if (s->channels == 3)
+		*over |= film_add8(sum + SUM_GREEN, film_integers(EIGHT(value + SUM_GREEN)));
+	for (int j = 0; s->spectral && j < LANE(p->waves.n, i); j++) {
+		GLOBAL int64 *own = sum + FILM_SUMS + LANE(p->waves.first, i) + s->n_groups * j;
+		float v = LANE_FLOAT(p->spectrum[j], i);
+		l8 all = film_integers(F8(v, v, v, v, v, v, v, v)) + *own;
+		*own = PART(all, 0);
+		*over |= (all + FILM_LIMIT) | (FILM_LIMIT - all);
 	}
-	for (int i = 0; i < FILM_SUMS; i++)
-		film[i] = sum[i];
-	if (bad)
-		*overflow = 1;
+	(void)i;                   /* of one lane, unused */
+	return high;
 }
 
 #endif

@@ -14,193 +14,224 @@
 /* ------------------------------------------------------------------ quads and the ground */
 
 /* Distance along a ray to a quad, FAR if it passes by. */
-FN float quad_distance(const struct light *q, struct ray r)
+FN fv quad_distance(const struct light *q, struct ray r)
 {
 	struct vec n = load3(q->normal), from = sub(r.from, load3(q->at));
-	float t = -dot3(n, from) * inverse(dot3(n, r.along));
-	if (!(t > 0.f && t < FAR))
-		return FAR;
+	fv t = -dot3(n, from) * inverse(dot3(n, r.along));
 	struct vec at = add(from, scale(r.along, t));
-	float u = dot3(load3(q->dual[0]), at), v = dot3(load3(q->dual[1]), at);
-	return u >= 0.f && u <= 1.f && v >= 0.f && v <= 1.f ? t : FAR;
+	fv u = dot3(load3(q->dual[0]), at), v = dot3(load3(q->dual[1]), at);
+	mv met = lt(FV(0.f), t) & lt(t, FV(FAR)) & le(FV(0.f), u) & le(u, FV(1.f)) & le(FV(0.f), v) & le(v, FV(1.f));
+	return SEL(met, t, FV(FAR));
 }
 
 #define TIE 0.999998f    /* distances nearer to each other than this ratio are one: a few steps of a float */
 
 /* Distance to the first surface, and which it is: the index of a quad, GROUND, or NONE at FAR. A quad that lies on the ground is
  * before it. */
-FN float surface_distance(const struct scene *s, struct ray r, int *which)
+FN fv surface_distance(const struct scene *s, struct ray r, iv *which)
 {
-	float t = s->has_ground ? (s->ground_height - r.from.y) * inverse(r.along.y) : FAR;
-	*which = t > 0.f && t < FAR ? GROUND : NONE;
-	t = *which == GROUND ? t : FAR;
+	fv t = FV(FAR);
+	*which = IV(NONE);
+	if (s->has_ground) {
+		t = (s->ground_height - r.from.y) * inverse(r.along.y);
+		mv met = lt(FV(0.f), t) & lt(t, FV(FAR));
+		*which = SEL(met, IV(GROUND), *which);
+		t = SEL(met, t, FV(FAR));
+	}
 	for (int i = 0; i < s->n_lights; i++) {
 		if (s->light[i].kind != LIGHT_QUAD)
 			continue;
-		float own = quad_distance(&s->light[i], r);
-		if (own < t || (*which == GROUND && own * TIE < t)) {
-			t = own;
-			*which = i;
-		}
+		fv own = quad_distance(&s->light[i], r);
+		mv met = lt(own, t) | (ieq(*which, IV(GROUND)) & lt(own * TIE, t));
+		SET(met, t, own);
+		SET(met, *which, IV(i));
 	}
 	return t;
 }
 
 /* Density of drawing the direction along, which meets a quad at distance t, sr^-1; 0 behind it. */
-FN float quad_density(const struct scene *s, const struct light *q, struct vec along, float t)
+FN fv quad_density(const struct scene *s, const struct light *q, struct vec along, fv t)
 {
-	float c = -dot3(load3(q->normal), along);
-	return c > 0.f ? t * (t * (q->density * s->pick)) / c : 0.f;
+	fv c = -dot3(load3(q->normal), along);
+	return SEL(lt(FV(0.f), c), t * (t * (q->density * s->pick)) / c, FV(0.f));
 }
 
 /* ------------------------------------------------------------------ the map: latitude and longitude, constant over a texel */
 
 /* Solid angle of a texel: by the polar angle of its middle, from the nearer pole, where the sine is relative. */
-FN float texel_angle(const struct scene *s, int row)
+FN fv texel_angle(const struct scene *s, iv row)
 {
-	float sn, cs, from = (float)(row < s->map_height / 2 ? row : s->map_height - 1 - row);
-	sincos_of((from + 0.5f) * (PI / (float)s->map_height), &sn, &cs);
+	fv sn, cs;
+	sincos_of((to_float(ileast(row, s->map_height - 1 - row)) + 0.5f) * (PI / (float)s->map_height), &sn, &cs);
 	return sn * s->map_angle;
 }
 
-/* Density of drawing a direction in a texel, sr^-1. */
-FN float map_density(const struct scene *s, const struct tables *tab, int row, int column)
+/* Share of an interval of a CDF in units of 2^-31. */
+FN fv cdf_share(GLOBAL const int *cdf, mv m, iv i)
 {
-	GLOBAL const uint32 *rows = tab->map_cdf + row, *columns = tab->map_cdf + s->map_height + 1 + (long)row * (s->map_width + 1) + column;
-	return (float)(rows[1] - rows[0]) * 0x1p-31f * ((float)(columns[1] - columns[0]) * 0x1p-31f) * s->pick / texel_angle(s, row);
+	return to_float(signed_of(unsigned_of(igather(m, cdf + 1, i)) - unsigned_of(igather(m, cdf, i)))) * 0x1p-31f;
+}
+
+/* Density of drawing a direction in a texel, sr^-1. */
+FN fv map_density(const struct scene *s, const struct tables *t, mv m, iv row, iv column)
+{
+	GLOBAL const int *columns = t->map_cdf + s->map_height + 1;
+	return cdf_share(t->map_cdf, m, row) * cdf_share(columns, m, row * (s->map_width + 1) + column) * s->pick / texel_angle(s, row);
 }
 
 /* The texel in a direction: top row +y, centre column -z, columns turn towards +x. */
-FN void map_locate(const struct scene *s, struct vec d, int *row, int *column)
+FN void map_locate(const struct scene *s, struct vec d, iv *row, iv *column)
 {
-	float polar = turn_of(root(d.x * d.x + d.z * d.z), d.y) / PI, azimuth = 0.5f + turn_of(d.x, -d.z) / (2.f * PI);
-	*row = (int)least(polar * (float)s->map_height, (float)s->map_height - 1.f);
-	*column = (int)most(0.f, least(azimuth * (float)s->map_width, (float)s->map_width - 1.f));
+	fv polar = turn_of(root(d.x * d.x + d.z * d.z), d.y) / PI, azimuth = 0.5f + turn_of(d.x, -d.z) / (2.f * PI);
+	*row = to_int(least(polar * (float)s->map_height, FV((float)s->map_height - 1.f)));
+	*column = to_int(most(FV(0.f), least(azimuth * (float)s->map_width, FV((float)s->map_width - 1.f))));
 }
 
-FN void map_value(const struct scene *s, const struct tables *tab, int row, int column, float *rgb)
+FN void map_value(const struct scene *s, const struct tables *t, mv m, iv row, iv column, fv *rgb)
 {
-	GLOBAL const float *texel = tab->map + 3 * ((long)row * s->map_width + column);
-	for (int i = 0; i < 3; i++)
-		rgb[i] = texel[i];
+	for (int c = 0; c < 3; c++)
+		rgb[c] = gather(m, t->map, 3 * (row * s->map_width + column) + c);
 }
 
-/* The interval of cdf[n + 1], in units of 2^-31, that u of 32 bits falls into, and the place in it, in (0, 1]. */
-FN int cdf_draw(GLOBAL const uint32 *cdf, int n, uint32 u, float *place)
+/* The interval of cdf[n + 1], which begins at index from, in units of 2^-31, that u of 32 bits falls into, and the place in it, in
+ * (0, 1]. Compared less 1, so that 2^31 is a signed number. */
+FN iv cdf_draw(GLOBAL const int *cdf, mv m, iv from, int n, uv u, fv *place)
 {
-	int low = 0, high = n;
-	u >>= 1;
-	while (high - low > 1) {
-		int middle = (int)(((uint32)low + (uint32)high) / 2);
-		if (cdf[middle] <= u)
-			low = middle;
-		else
-			high = middle;
+	iv low = IV(0), high = IV(n), target = signed_of(u >> 1);
+	for (mv on = m & ilt(low + 1, high); any(on); on &= ilt(low + 1, high)) {
+		iv middle = signed_of(unsigned_of(low + high) >> 1);
+		mv below = ilt(signed_of(unsigned_of(igather(on, cdf, from + middle)) - 1u), target);
+		SET(on & below, low, middle);
+		SET(on & NOT(below), high, middle);
 	}
-	*place = least(1.f, ((float)(u - cdf[low]) + 0.5f) / (float)(cdf[low + 1] - cdf[low]));
+	iv begin = igather(m, cdf, from + low);
+	fv width = to_float(signed_of(unsigned_of(igather(m, cdf + 1, from + low)) - unsigned_of(begin)));
+	*place = least(FV(1.f), (to_float(signed_of(unsigned_of(target) - unsigned_of(begin))) + 0.5f) / most(width, FV(1.f)));
 	return low;
 }
 
 /* A direction of the map by its luminance: texel by texel exactly as tabulated, uniform in solid angle over one. */
-FN struct vec map_draw(const struct scene *s, const struct tables *tab, uint32 u, uint32 v, int *row, int *column)
+FN struct vec map_draw(const struct scene *s, const struct tables *t, mv m, uv u, uv v, iv *row, iv *column)
 {
-	float down, across, sn, cs, step = PI / (float)s->map_height;
-	*row = cdf_draw(tab->map_cdf, s->map_height, u, &down);
-	*column = cdf_draw(tab->map_cdf + s->map_height + 1 + (long)*row * (s->map_width + 1), s->map_width, v, &across);
+	fv down, across, sn, cs, step = FV(PI / (float)s->map_height);
+	*row = cdf_draw(t->map_cdf, m, IV(0), s->map_height, u, &down);
+	*column = cdf_draw(t->map_cdf + s->map_height + 1, m, *row * (s->map_width + 1), s->map_width, v, &across);
 	/* sin^2(theta / 2), linear in solid angle, from the nearer pole, where it resolves the smallest texel */
-	int south = *row >= s->map_height / 2, from = south ? s->map_height - 1 - *row : *row;
-	sincos_of(0.5f * (float)from * step, &sn, &cs);
-	float h0 = sn * sn;
-	sincos_of(0.5f * (float)(from + 1) * step, &sn, &cs);
-	float h = h0 + (sn * sn - h0) * (south ? 1.f - down : down);
-	float y = 1.f - 2.f * h, out = 2.f * root(h * (1.f - h));
-	sincos_of(2.f * PI * least(1.f, ((float)*column + across) / (float)s->map_width), &sn, &cs);
-	return vec3(-out * sn, south ? -y : y, out * cs);    /* the left edge is +z, a quarter turn from there -x */
+	mv north = ilt(*row, IV(s->map_height / 2));
+	fv from = to_float(SEL(north, *row, s->map_height - 1 - *row));
+	sincos_of(0.5f * from * step, &sn, &cs);
+	fv h0 = sn * sn;
+	sincos_of(0.5f * (from + 1.f) * step, &sn, &cs);
+	fv h = h0 + (sn * sn - h0) * SEL(north, down, 1.f - down);
+	fv y = 1.f - 2.f * h, out = 2.f * root(h * (1.f - h));
+	sincos_of(2.f * PI * least(FV(1.f), (to_float(*column) + across) / (float)s->map_width), &sn, &cs);
+	return vec3(-out * sn, SEL(north, y, -y), out * cs);    /* the left edge is +z, a quarter turn from there -x */
 }
 
 /* ------------------------------------------------------------------ drawing one, meeting one */
 
 struct drawn {
-	struct vec along;
-	float t_end;               /* where it shines from */
-	int which;                 /* the surface that it is, or NONE */
-	float density;             /* of drawing this light and this direction, sr^-1; 0: parallel light, that is never met */
-	float rgb[3];              /* radiance; of parallel light irradiance */
+	struct vec along, inverse;
+	fv t_end;                  /* where it shines from */
+	iv which;                  /* the surface that it is, or NONE */
+	fv density;                /* of drawing this light and this direction, sr^-1; 0: parallel light, that is never met */
+	fv rgb[3];                 /* radiance; of parallel light irradiance */
+	mv shines;
 };
 
-/* Light i seen from a point; false where it does not shine. */
-FN int light_draw(const struct scene *s, const struct tables *tab, int i, struct vec point, uint32 u, uint32 v, struct drawn *out)
+/* Light i seen from the points of lanes m. */
+FN void light_draw(const struct scene *s, const struct tables *t, mv m, int i, struct vec point, const struct random *random,
+                   struct drawn *d)
 {
 	const struct light *l = &s->light[i];
-	float x = (float)(u >> 8) * 0x1p-24f, y = (float)(v >> 8) * 0x1p-24f;
-	for (int k = 0; k < 3; k++)
-		out->rgb[k] = l->rgb[k];
-	out->which = NONE;
-	out->t_end = FAR;
+	*d = (struct drawn){ load3(l->at), load3(l->inverse), FV(FAR), IV(NONE), FV(l->density * s->pick),
+		{ FV(l->rgb[0]), FV(l->rgb[1]), FV(l->rgb[2]) }, m };
+	if (l->kind == LIGHT_SUN && l->cap == 0.f)
+		return;
 	if (l->kind == LIGHT_QUAD) {
-		struct vec to = add(load3(l->at), add(scale(load3(l->edge[0]), x), scale(load3(l->edge[1]), y)));
-		to = sub(to, point);
-		float t2 = dot3(to, to);
-		if (!(t2 > 1e-30f))
-			return 0;
-		out->t_end = root(t2);
-		out->along = scale(to, 1.f / out->t_end);
-		out->which = i;
-		out->density = quad_density(s, l, out->along, out->t_end);
-		return out->density > 0.f;
+		fv x = draw(random, DRAW_LIGHT_1), y = draw(random, DRAW_LIGHT_2);
+		struct vec to = sub(add(d->along, add(scale(load3(l->edge[0]), x), scale(load3(l->edge[1]), y))), point);
+		fv t2 = dot3(to, to);
+		d->t_end = root(t2);
+		d->along = scale(to, 1.f / d->t_end);
+		d->which = IV(i);
+		d->density = quad_density(s, l, d->along, d->t_end);
+		d->shines &= lt(FV(1e-30f), t2) & lt(FV(0.f), d->density);
+	} else if (l->kind == LIGHT_MAP) {
+		iv row, column;
+		d->along = map_draw(s, t, m, draw_bits(random, DRAW_LIGHT_1), draw_bits(random, DRAW_LIGHT_2), &row, &column);
+		d->density = map_density(s, t, m, row, column);
+		map_value(s, t, m, row, column, d->rgb);
+	} else {                   /* uniform over the disc, in 1 - cos */
+		fv c = l->cap * draw(random, DRAW_LIGHT_1);
+		d->along = around(d->along, root(c * (2.f - c)), 1.f - c, 2.f * PI * draw(random, DRAW_LIGHT_2));
 	}
-	if (l->kind == LIGHT_MAP) {
-		int row, column;
-		out->along = map_draw(s, tab, u, v, &row, &column);
-		out->density = map_density(s, tab, row, column);
-		map_value(s, tab, row, column, out->rgb);
-		return 1;
-	}
-	out->along = load3(l->at);
-	if (l->cap > 0.f) {        /* uniform over the disc, in 1 - cos */
-		float c = l->cap * x;
-		out->along = around(out->along, root(c * (2.f - c)), 1.f - c, 2.f * PI * y);
-	}
-	out->density = l->density * s->pick;
-	return 1;
+	d->inverse = inverse3(d->along);
 }
 
-/* Whether a surface stands between a point and what was drawn from there. What lies on the light itself, as another quad at a
- * common edge, does not: hence the margin. */
-FN int light_blocked(const struct scene *s, struct ray r, const struct drawn *d)
+/* One of the lights that are drawn, all equally likely. */
+FN void some_light(const struct scene *s, const struct tables *t, mv m, struct vec point, const struct random *random, struct drawn *d)
 {
-	int which;
-	float t = surface_distance(s, r, &which);
-	return which != NONE && which != d->which && t < d->t_end * TIE;
+	mv own = m;
+	iv which = IV(0);
+	if (s->n_drawn > 1) {
+		which = to_int(draw(random, DRAW_LIGHT) * (float)s->n_drawn);
+		own &= ieq(which, IV(0));
+	}
+	light_draw(s, t, own, 0, point, random, d);
+	for (int i = 1; i < s->n_drawn; i++) {
+		own = m & ieq(which, IV(i));
+		if (!any(own))
+			continue;
+		struct drawn other;
+		light_draw(s, t, own, i, point, random, &other);
+		set3(own, &d->along, other.along);
+		set3(own, &d->inverse, other.inverse);
+		SET(own, d->t_end, other.t_end);
+		SET(own, d->which, other.which);
+		SET(own, d->density, other.density);
+		for (int k = 0; k < 3; k++)
+			SET(own, d->rgb[k], other.rgb[k]);
+		d->shines |= other.shines;
+	}
+}
+
+/* Where a surface stands between a point and what was drawn from there. What lies on the light itself, as another quad at a
+ * common edge, does not: hence the margin. */
+FN mv light_blocked(const struct scene *s, struct ray r, const struct drawn *d)
+{
+	iv which;
+	fv t = surface_distance(s, r, &which);
+	return NOT(ieq(which, IV(NONE))) & NOT(ieq(which, d->which)) & lt(t, d->t_end * TIE);
 }
 
 /* The weight of a light met by a path whose direction has the density chance (0: from the camera, where none is drawn). */
-FN float met(float chance, float density) { return chance > 0.f ? chance / (chance + density) : 1.f; }
+FN fv met(fv chance, fv density) { return SEL(lt(FV(0.f), chance), chance / (chance + density), FV(1.f)); }
 
-/* Radiance of a quad met at distance t. */
-FN void quad_seen(const struct scene *s, int i, struct ray r, float t, float chance, float *rgb)
+/* Radiance of quad i met at distance t. */
+FN void quad_seen(const struct scene *s, int i, struct ray r, fv t, fv chance, fv *rgb)
 {
-	float density = quad_density(s, &s->light[i], r.along, t), k = density > 0.f ? met(chance, density) : 0.f;
+	fv density = quad_density(s, &s->light[i], r.along, t), k = SEL(lt(FV(0.f), density), met(chance, density), FV(0.f));
 	for (int c = 0; c < 3; c++)
 		rgb[c] = s->light[i].rgb[c] * k;
 }
 
 /* Radiance of what lies behind everything: the environment, the map, and suns with a disc. */
-FN void sky_seen(const struct scene *s, const struct tables *tab, struct vec along, float chance, float *rgb)
+FN void sky_seen(const struct scene *s, const struct tables *t, mv m, struct vec along, fv chance, fv *rgb)
 {
 	for (int c = 0; c < 3; c++)
-		rgb[c] = s->environment[c];
+		rgb[c] = FV(s->environment[c]);
 	for (int i = 0; i < s->n_drawn; i++) {
 		const struct light *l = &s->light[i];
 		struct vec off = sub(along, load3(l->at));
-		float own[3] = { l->rgb[0], l->rgb[1], l->rgb[2] }, k;
+		fv own[3] = { FV(l->rgb[0]), FV(l->rgb[1]), FV(l->rgb[2]) }, k;
 		if (l->kind == LIGHT_MAP) {
-			int row, column;
+			iv row, column;
 			map_locate(s, along, &row, &column);
-			map_value(s, tab, row, column, own);
-			k = met(chance, map_density(s, tab, row, column));
-		} else if (l->kind == LIGHT_SUN && l->cap > 0.f && dot3(off, off) <= 2.f * l->cap) {
-			k = met(chance, l->density * s->pick);
+			map_value(s, t, m, row, column, own);
+			k = met(chance, map_density(s, t, m, row, column));
+		} else if (l->kind == LIGHT_SUN && l->cap > 0.f) {
+			k = SEL(le(dot3(off, off), FV(2.f * l->cap)), met(chance, FV(l->density * s->pick)), FV(0.f));
 		} else {
 			continue;
 		}

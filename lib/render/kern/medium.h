@@ -1,5 +1,8 @@
 /* medium - free flight and transmittance in the four models of the medium.
  *
+ * A ray on its way through the medium is a march: either a free flight, which ends at a collision or passes, or a shadow ray, whose
+ * transmittance is wanted. Lanes march side by side, each in its own ray, and end at different times.
+ *
  * A flight is sampled for one wavelength, the hero; event[j] is what its own density would be for wavelength j: the common
  * currency in which the wavelengths of a path are weighed against each other. */
 #ifndef KERN_MEDIUM_H
@@ -8,120 +11,171 @@
 #include "render/kern/gather.h"
 #include "render/kern/voxels.h"
 
-/* Transmittance of the ray up to t_end at each wavelength. */
-FN void transmittance(const struct scene *s, const struct tables *tab, struct ray r, float t_end, struct waves w, float *out)
+/* Random numbers of a vertex. */
+enum { DRAW_FLIGHT, DRAW_CLASS, DRAW_SHADOW, DRAW_ANGLE, DRAW_PLACE, DRAW_AZIMUTH, DRAW_ROULETTE, DRAW_LIGHT, DRAW_LIGHT_1, DRAW_LIGHT_2 };
+
+/* Through one medium of the mean extinction nothing needs steps: no lane ever waits for another one, and what concerns a vertex
+ * alone need not be kept for lanes that do. */
+struct bulk {
+	struct vec entry, along;
+	fv t0, length;             /* along the ray */
+};
+
+struct march {
+	struct gather gather;      /* of these three, the transport's is used */
+	struct passage passage;
+	struct bulk bulk;
+};
+
+#define LANES_WAIT (TRANSPORT != TRANSPORT_CONTINUOUS)
+#define PUT(m, place, value) ((place) = LANES_WAIT ? SEL(m, value, place) : (value))
+#define PUT3(m, place, value) ((place) = LANES_WAIT ? sel3(m, value, place) : (value))
+
+#define AMONG_PARTICLES (TRANSPORT == TRANSPORT_EXPLICIT || TRANSPORT == TRANSPORT_FAT_RAY)
+
+FN mv marching(const struct scene *s, const struct march *g)
 {
-	if (s->transport == TRANSPORT_EXPLICIT || s->transport == TRANSPORT_FAT_RAY) {
-		struct gathered g;
-		gather(s, tab, r, t_end, w, 0, GATHER_ALL, &g);
-		for (int j = 0; j < w.n; j++)
-			out[j] = g.through[j];
-	} else if (s->transport == TRANSPORT_GRID) {
-		struct passed g;
-		pass_voxels(s, tab, r, t_end, w, 0, FAR, &g);
-		for (int j = 0; j < w.n; j++)
-			out[j] = expneg(s->counted ? g.depth[j] : tab->extinction[wave_of(w, j)] * g.depth[0]);
+	return AMONG_PARTICLES ? g->gather.going : TRANSPORT == TRANSPORT_GRID ? g->passage.going : NO_LANE;
+}
+
+/* Lanes m set out along r up to t_end, in flight or as shadow rays. */
+FN void march_begin(const struct scene *s, const struct tables *t, struct march *g, mv m, struct ray r, fv t_end, int flight,
+                    struct waves w, iv hero, const struct random *random)
+{
+	if (AMONG_PARTICLES) {
+		gather_begin(s, &g->gather, m, r, t_end, flight);
+	} else if (TRANSPORT == TRANSPORT_GRID) {
+		fv target = flight ? free_path(draw_bits(random, DRAW_FLIGHT)) : SHADOW_DEPTH + free_path(draw_bits(random, DRAW_SHADOW));
+		if (!s->counted) {     /* in units of the integral of the density */
+			fv own = of_hero(s, t->extinction, m, w, hero);
+			if (!flight)
+				EACH_WAVE(j)
+					own = least(own, of_wave(s, t->extinction, m, w, j));
+			target = SEL(lt(FV(0.f), own), target / own, FV(FAR));
+		}
+		passage_begin(s, &g->passage, m, r, t_end, flight, target);
 	} else {
-		float t0, t1;
+		fv t0, t1;
 		clip_medium(s, r, &t0, &t1);
-		t1 = least(t1, t_end);
-		for (int j = 0; j < w.n; j++)
-			out[j] = t0 < t1 ? expneg(tab->extinction[wave_of(w, j)] * (t1 - t0)) : 1.f;
+		g->bulk.entry = add(r.from, scale(r.along, t0));
+		g->bulk.along = r.along;
+		g->bulk.t0 = t0;
+		g->bulk.length = most(least(t1, t_end) - t0, FV(0.f));
 	}
 }
 
-/* Where a flight ends. */
+/* A step of all lanes under way. */
+FN void march_on(const struct scene *s, const struct tables *t, struct march *g, struct waves w, iv hero, const struct random *random)
+{
+	if (AMONG_PARTICLES)
+		gather_on(s, t, &g->gather, w, random);
+	else if (TRANSPORT == TRANSPORT_GRID)
+		passage_on(s, t, &g->passage, w, hero);
+}
+
+/* What shadow rays m let through at each wavelength. */
+FN void shadow_end(const struct scene *s, const struct tables *t, const struct march *g, mv m, struct waves w, fv *out)
+{
+	if (AMONG_PARTICLES) {
+		EACH_WAVE(j)
+			out[j] = gather_through(s, &g->gather, j);
+	} else if (TRANSPORT == TRANSPORT_GRID) {
+		fv thinnest = FV(FAR);
+		EACH_WAVE(j) {
+			out[j] = s->counted ? g->passage.depth[j] : of_wave(s, t->extinction, m, w, j) * g->passage.depth[0];
+			thinnest = least(thinnest, out[j]);
+		}
+		fv sure = most(FV(0.f), thinnest - SHADOW_DEPTH);    /* e^-sure was the chance to come through */
+		EACH_WAVE(j)
+			out[j] = SEL(g->passage.reached, FV(0.f), expneg(out[j] - sure));
+	} else {
+		EACH_WAVE(j)
+			out[j] = expneg(of_wave(s, t->extinction, m, w, j) * g->bulk.length);
+	}
+}
+
+/* Where flights end. */
 struct collision {
-	int happened;              /* else it reached t_end */
+	mv happened;               /* else it reached t_end */
 	struct vec point;          /* of the collision */
-	int class, id;             /* what scatters there; id NONE where it is no single particle */
+	fv t;                      /* how far away */
+	iv class, id;              /* what scatters there; id NONE where it is no single particle */
 };
 
-FN struct collision flight_particles(const struct scene *s, const struct tables *tab, struct ray r, float t_end, struct waves w,
-                                     int hero, const struct random *random, float *event)
+FN struct collision flight_particles(const struct scene *s, const struct tables *t, const struct gather *g, mv m, iv hero, fv *event)
 {
-	struct gathered g;
-	struct collision c = { 0, r.from, s->n_classes, NONE };
-	gather(s, tab, r, t_end, w, random, GATHER_FIRST, &g);
-	c.id = g.id[hero];
-	c.happened = c.id != NONE;
-	c.point = add(g.entry, scale(r.along, g.depth[hero]));
-	if (c.happened)
-		c.class = (int)float_bits(tab->particle[4 * (long)c.id + 3]);
-	for (int j = 0; j < w.n; j++)
-		event[j] = g.id[j] == c.id ? 1.f : 0.f;
+	struct collision c = { NO_LANE, g->entry, FV(0.f), IV(0), g->id[0] };
+	EACH_WAVE(j)
+		c.id = SEL(ieq(hero, IV(j)), g->id[j], c.id);
+	c.happened = m & NOT(ieq(c.id, IV(NONE)));
+	fv depth = hero_among(s, g->depth, hero);
+	c.point = add(g->entry, scale(g->along, depth));
+	c.t = depth - g->ahead;
+	if (s->only_class >= 0)
+		c.class = IV(s->only_class);
+	else
+		particle_at(t, c.happened, c.id, &c.class);
+	EACH_WAVE(j)
+		event[j] = SEL(ieq(g->id[j], c.id), FV(1.f), FV(0.f));
 	return c;
 }
 
 /* Which class of a cube's particles is met: by count x c_ext of the hero. */
-FN int class_in(const struct scene *s, const struct tables *tab, int voxel, int wave, float u)
+FN iv class_in(const struct scene *s, const struct tables *t, mv m, const iv *cell, iv wave, fv u)
 {
-	GLOBAL const uint32 *count = tab->count + (long)voxel * s->n_classes;
-	float all = 0.f, sum = 0.f;
-	int class = 0;
+	iv class = IV(0), row = ((cell[2] * s->voxels[1] + cell[1]) * s->voxels[0] + cell[0]) * s->n_classes;
+	fv all = FV(0.f), sum = FV(0.f);
 	for (int k = 0; k < s->n_classes; k++)
-		all += (float)count[k] * tab->disc[k * s->n_waves + wave];
+		all += to_float(igather(m, t->count, row + k)) * gather(m, t->disc, k * s->n_waves + wave);
 	for (int k = 0; k < s->n_classes; k++) {
-		float own = (float)count[k] * tab->disc[k * s->n_waves + wave];
-		if (own > 0.f && sum <= u * all)
-			class = k;
+		fv own = to_float(igather(m, t->count, row + k)) * gather(m, t->disc, k * s->n_waves + wave);
+		class = SEL(lt(FV(0.f), own) & le(sum, u * all), IV(k), class);
 		sum += own;
 	}
 	return class;
 }
 
-FN struct collision flight_voxels(const struct scene *s, const struct tables *tab, struct ray r, float t_end, struct waves w,
-                                  int hero, uint32 bits, float u_class, float *event)
+FN struct collision flight_voxels(const struct scene *s, const struct tables *t, struct passage *g, mv m, struct waves w, iv hero,
+                                  const struct random *random, fv *event)
 {
-	struct passed g;
-	struct collision c = { 0, r.from, s->n_classes, NONE };
-	float target = free_path(bits), density = tab->extinction[wave_of(w, hero)];
-	target = s->counted ? target : density > 0.f ? target / density : FAR;
-	pass_voxels(s, tab, r, t_end, w, hero, target, &g);
-	c.happened = g.reached;
-	c.point = add(g.entry, scale(r.along, g.t));
-	if (c.happened && s->counted)
-		c.class = class_in(s, tab, g.voxel, wave_of(w, hero), u_class);
-	for (int j = 0; j < w.n; j++) {
-		int wave = wave_of(w, j);
-		float own = tab->extinction[wave];
-		event[j] = expneg(s->counted ? g.depth[j] : own * g.depth[0]);
-		if (c.happened)
-			event[j] *= s->counted ? tab->disc[c.class * s->n_waves + wave] / s->largest : own;
+	struct collision c = { m & g->reached, g->entry, passage_end(s, t, g, m), IV(s->n_classes), IV(NONE) };
+	c.point = add(g->entry, scale(g->along, c.t));
+	c.t += g->t0;
+	if (s->counted)
+		c.class = s->only_class >= 0 ? IV(s->only_class)
+		    : class_in(s, t, c.happened, g->cell, hero_of(s, w, hero), draw(random, DRAW_CLASS));
+	EACH_WAVE(j) {
+		fv own = of_wave(s, t->extinction, m, w, j), depth = s->counted ? g->depth[j] : own * g->depth[0];
+		fv rate = s->counted ? of_class(s, t->disc, c.happened, c.class, w, j) * s->largest_inverse : own;
+		event[j] = expneg(depth) * SEL(c.happened, rate, FV(1.f));
 	}
 	return c;
 }
 
-FN struct collision flight_bulk(const struct scene *s, const struct tables *tab, struct ray r, float t_end, struct waves w,
-                                int hero, uint32 bits, float *event)
+FN struct collision flight_bulk(const struct scene *s, const struct tables *t, const struct bulk *g, mv m, struct waves w, iv hero,
+                                const struct random *random, fv *event)
 {
-	struct collision c = { 0, r.from, s->n_classes, NONE };
-	float t0, t1;
-	clip_medium(s, r, &t0, &t1);
-	float length = most(least(t1, t_end) - t0, 0.f), sigma = tab->extinction[wave_of(w, hero)];
-	float free = free_path(bits);
-	c.happened = free < sigma * length;
-	if (c.happened) {
-		length = free / sigma;
-		c.point = add(add(r.from, scale(r.along, t0)), scale(r.along, length));
-	}
-	for (int j = 0; j < w.n; j++) {
-		float own = tab->extinction[wave_of(w, j)];
-		event[j] = expneg(own * length) * (c.happened ? own : 1.f);
+	fv sigma = of_hero(s, t->extinction, m, w, hero), free = free_path(draw_bits(random, DRAW_FLIGHT));
+	mv happened = m & lt(free, sigma * g->length);
+	fv length = SEL(happened, free * (1.f / sigma), g->length);
+	struct collision c = { happened, add(g->entry, scale(g->along, length)), g->t0 + length, IV(s->n_classes), IV(NONE) };
+	EACH_WAVE(j) {
+		fv own = of_wave(s, t->extinction, m, w, j);
+		event[j] = expneg(own * length) * SEL(c.happened, own, FV(1.f));
 	}
 	return c;
 }
 
-/* A free flight of the hero wavelength up to t_end; event[j]: its density (collision) or probability (none) for wavelength j,
- * up to a common factor. Uses dimensions d and d + 1 of the random numbers. */
-FN struct collision free_flight(const struct scene *s, const struct tables *tab, struct ray r, float t_end, struct waves w,
-                                int hero, const struct random *random, int d, float *event)
+/* How flights m ended; event[j]: their density (collision) or probability (none) for wavelength j, up to a common factor. */
+FN struct collision flight_end(const struct scene *s, const struct tables *t, struct march *g, mv m, struct waves w, iv hero,
+                               const struct random *random, fv *event)
 {
-	if (s->transport == TRANSPORT_EXPLICIT || s->transport == TRANSPORT_FAT_RAY)
-		return flight_particles(s, tab, r, t_end, w, hero, random, event);
-	if (s->transport == TRANSPORT_GRID)
-		return flight_voxels(s, tab, r, t_end, w, hero, draw_bits(random, d), draw(random, d + 1), event);
-	return flight_bulk(s, tab, r, t_end, w, hero, draw_bits(random, d), event);
+	struct collision c = AMONG_PARTICLES ? flight_particles(s, t, &g->gather, m, hero, event)
+	    : TRANSPORT == TRANSPORT_GRID ? flight_voxels(s, t, &g->passage, m, w, hero, random, event)
+	    : flight_bulk(s, t, &g->bulk, m, w, hero, random, event);
+	if (CARRIED == 1)          /* the hero alone: its own event, whatever it is */
+		event[0] = FV(1.f);
+	return c;
 }
 
 #endif

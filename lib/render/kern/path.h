@@ -1,211 +1,294 @@
-/* path - one light path from the camera: flights, scattering, next-event estimation, all its wavelengths at once.
+/* path - light paths from the camera, one a lane: flights, scattering, next-event estimation, all wavelengths of a path at once.
  *
  * A path is sampled for one of its wavelengths, the hero, each equally probable. weight[j] is the throughput of wavelength j
  * (albedos, roulette), density[j] the probability density of the path had j been the hero, divided by its mean over j.
  * By the balance heuristic over heroes wavelength j then contributes weight[j] density[j] times what it sees: no wavelength is
- * favoured, and one whose own disc would not have been met has density 0 from there on. */
+ * favoured, and one whose own disc would not have been met has density 0 from there on.
+ *
+ * A vertex has two parts, since the paths of different lanes take marches of different lengths: path_arrive, when its flight has
+ * ended, which scatters and sends out the shadow ray; path_depart, when that has ended, which takes the light in and sets out for
+ * the next vertex. Between the parts a lane may wait for others; what it computes does not depend on that. */
 #ifndef KERN_PATH_H
 #define KERN_PATH_H
 
 #include "render/kern/light.h"
 #include "render/kern/phase.h"
-#include "render/kern/random.h"
 
 struct path {
 	struct ray ray;
 	struct waves waves;
-	int hero;
-	float weight[MAX_WAVES], density[MAX_WAVES];
-	float chance;              /* density of the ray's direction, sr^-1; 0 from the camera, where no light is drawn */
+	iv hero;
+	fv weight[CARRIED], density[CARRIED];
+	fv chance;                 /* density of the ray's direction, sr^-1; 0 from the camera, where no light is drawn */
 	struct random random;
-	float rgb[3];              /* seen since the medium last scattered the path */
-	int order;                 /* times that it did, from 2 on 2; reflections by surfaces do not count */
-	float before[2][3];        /* what was seen unscattered, and scattered once, of an order that is over */
-	float depth;               /* along the camera's ray to where the medium scattered it, -1 if it did not */
-	float spectrum[MAX_WAVES]; /* all that was seen, by wavelength */
+	fv rgb[3];                 /* seen since the medium last scattered the path */
+	iv order;                  /* times that it did, from 2 on 2; reflections by surfaces do not count */
+	fv before[2][3];           /* what was seen unscattered, and scattered once, of an order that is over */
+	fv depth;                  /* along the camera's ray to where the medium scattered it, -1 if it did not */
+	fv spectrum[CARRIED];      /* all that was seen, by wavelength; kept for spectral images */
+	/* on the way: in flight to a surface or beyond, or from a vertex to a light */
+	struct march march;
+	mv flying;
+	fv t_end;
+	iv surface;
+	/* the vertex */
+	struct vec point;
+	iv class, id;              /* class NONE is the ground */
+	fv lit[CARRIED], lamp[3];  /* what the light drawn adds through a clear medium: wavelength j sees lit[j] lamp[] */
 };
 
-enum { DRAW_FLIGHT, DRAW_CLASS, DRAW_ANGLE, DRAW_AZIMUTH, DRAW_ROULETTE, DRAW_LIGHT, DRAW_LIGHT_1, DRAW_LIGHT_2 };
+#define ISOTROPIC 0.0795774715f    /* sr^-1 */
+
 enum { DRAW_PIXEL_X, DRAW_PIXEL_Y, DRAW_HERO };
 
-/* A light's colour multiplies the film's channels, so that it is seen as it is, whatever the wavelengths; the wavelength itself sees
- * the mean of the light's channels that its own colour gives. */
-FN void see(const struct tables *tab, struct path *p, int j, float k, const float *rgb)
+/* Of one wavelength the density is its own mean. */
+#define DENSITY(p, j) (CARRIED == 1 ? FV(1.f) : (p)->density[j])
+
+/* Wavelengths of lanes m see k rgb[]. A light's colour multiplies the film's channels, so that it is seen as it is, whatever the
+ * wavelengths; the wavelength itself sees the mean of the light's channels that its own colour gives. */
+FN void see(const struct scene *s, const struct tables *t, struct path *p, mv m, int j, fv k, const fv *rgb)
 {
-	GLOBAL const float *c = tab->colour + 6 * wave_of(p->waves, j);
-	for (int i = 0; i < 3; i++) {
-		float seen = p->weight[j] * k * rgb[i];
-		p->rgb[i] += c[i] * seen;
-		p->spectrum[j] += c[3 + i] * seen;
+	fv seen = p->weight[j] * k;
+	for (int i = 0; i < s->channels; i++) {
+#ifdef WAVES
+		fv c = FV(t->colour[6 * j + i]), share = FV(t->colour[6 * j + 3 + i]);
+#else
+		iv row = 6 * wave_of(s, p->waves, j) + i;
+		fv c = gather(m, t->colour, row), share = gather(m, t->colour, row + 3);
+#endif
+		fv add = SEL(m, seen * rgb[i], FV(0.f));
+		p->rgb[i] += c * add;
+		if (s->spectral)       /* all three shares, of one channel */
+			p->spectrum[j] += s->channels == 1 ? add : share * add;
 	}
 }
 
-/* The medium scatters the path: what it sees from here on belongs to the next order. */
-FN void scattered(struct path *p, struct vec point)
+/* The medium scatters paths m at distance t: what they see from here on belongs to the next order. */
+FN void scattered(const struct scene *s, struct path *p, mv m, fv t)
 {
-	if (p->chance == 0.f) {    /* the camera's ray */
-		struct vec d = sub(point, p->ray.from);
-		p->depth = root(dot3(d, d));
-	}
-	if (p->order == 2)
+	m &= ilt(p->order, IV(2));
+	if (!any(m))
 		return;
-	for (int i = 0; i < 3; i++) {
-		p->before[p->order][i] = p->rgb[i];
-		p->rgb[i] = 0.f;
+	SET(m & ieq(p->order, IV(0)) & le(p->chance, FV(0.f)), p->depth, t);
+	for (int k = 0; k < 2; k++) {
+		mv over = m & ieq(p->order, IV(k));
+		for (int i = 0; i < s->channels; i++)
+			SET(over, p->before[k][i], p->rgb[i]);
 	}
-	p->order++;
+	for (int i = 0; i < s->channels; i++)
+		SET(m, p->rgb[i], FV(0.f));
+	SET(m, p->order, p->order + 1);
 }
 
-/* Take event[j] into the densities; returns its mean over the wavelengths, 0 if the path cannot be (it then ends). */
-FN float take_event(struct path *p, const float *event)
+/* Take event[j] into the densities; returns their mean over the wavelengths, 0 if the path cannot be (it then ends). */
+FN fv take_event(const struct scene *s, struct path *p, mv m, const fv *event)
 {
-	float mean = 0.f;
-	for (int j = 0; j < p->waves.n; j++) {
-		p->density[j] *= event[j];
-		mean += p->density[j];
+	fv mean = FV(0.f), own[CARRIED];
+	if (CARRIED == 1)
+		return event[0];
+	EACH_WAVE(j) {
+		own[j] = p->density[j] * event[j];
+		mean += own[j];
 	}
-	mean /= (float)p->waves.n;
-	for (int j = 0; j < p->waves.n; j++)
-		p->density[j] = mean > 0.f ? p->density[j] / mean : 0.f;
+	mean /= to_float(p->waves.n);
+	EACH_WAVE(j)
+		SET(m, p->density[j], SEL(lt(FV(0.f), mean), own[j] / mean, FV(0.f)));
 	return mean;
 }
 
-FN struct path path_begin(const struct scene *s, uint32 pixel, uint32 sample)
+/* New paths in lanes m: a sample of a pixel. */
+FN void path_begin(const struct scene *s, struct path *p, mv m, iv pixel, iv column, iv row, iv sample)
 {
-	struct path p;
-	p.random = random_of(s->seed, pixel, sample);
-	float x = 2.f * ((float)(pixel % (uint32)s->width) + draw(&p.random, DRAW_PIXEL_X)) / (float)s->width - 1.f;
-	float y = 1.f - 2.f * ((float)(pixel / (uint32)s->width) + draw(&p.random, DRAW_PIXEL_Y)) / (float)s->height;
-	p.ray.from = load3(s->eye);
-	p.ray.along = unit3(add(load3(s->forward), add(scale(load3(s->right), x), scale(load3(s->up), y))));
-	p.ray.skip = NONE;
-	p.ray.area = s->fat;
-	p.waves.step = s->n_groups;
+	struct random random = random_of(s->seed, unsigned_of(pixel), unsigned_of(sample));
+	SET(m, p->random.key, random.key);
+	SET(m, p->random.counter, random.counter);
+	fv x = (to_float(column) + draw(&p->random, DRAW_PIXEL_X)) * (2.f / (float)s->width) - 1.f;
+	fv y = 1.f - (to_float(row) + draw(&p->random, DRAW_PIXEL_Y)) * (2.f / (float)s->height);
+	struct vec along = unit3(add(load3(s->forward), add(scale(load3(s->right), x), scale(load3(s->up), y))));
+	set3(m, &p->ray.from, load3(s->eye));
+	set3(m, &p->ray.along, along);
+	set3(m, &p->ray.inverse, inverse3(along));
+	SET(m, p->ray.skip, IV(NONE));
 	/* groups of wavelengths take turns, each pixel from another one on: any share of samples is unbiased, full turns are even */
-	p.waves.first = (int)((sample + mix(pixel, s->seed)) % (uint32)s->n_groups);
-	p.waves.n = (s->n_waves - p.waves.first + s->n_groups - 1) / s->n_groups;
-	p.hero = (int)(draw(&p.random, DRAW_HERO) * (float)p.waves.n);
-	for (int j = 0; j < MAX_WAVES; j++) {
-		p.weight[j] = (float)s->n_groups;
-		p.density[j] = 1.f;
-		p.spectrum[j] = 0.f;
+	if (s->n_groups > 1) {
+		uv turn = unsigned_of(sample) + mix(unsigned_of(pixel), UV(s->seed));
+		SET(m, p->waves.first, signed_of(turn % (uint32)s->n_groups));
 	}
-	p.chance = 0.f;
-	p.depth = -1.f;
-	p.order = 0;
-	for (int i = 0; i < 3; i++)
-		p.rgb[i] = p.before[0][i] = p.before[1][i] = 0.f;
-	next_vertex(&p.random);
-	return p;
+	SET(m, p->waves.n, s->carried - SEL(ilt(p->waves.first + s->n_groups * (s->carried - 1), IV(s->n_waves)), IV(0), IV(1)));
+	SET(m, p->hero, CARRIED > 1 ? to_int(draw(&p->random, DRAW_HERO) * to_float(p->waves.n)) : IV(0));
+	EACH_WAVE(j) {
+		SET(m, p->weight[j], FV((float)s->n_groups));
+		SET(m, p->density[j], SEL(ilt(IV(j), p->waves.n), FV(1.f), FV(0.f)));
+		SET(m, p->spectrum[j], FV(0.f));
+	}
+	SET(m, p->chance, FV(0.f));
+	SET(m, p->depth, FV(-1.f));
+	SET(m, p->order, IV(0));
+	for (int i = 0; i < s->channels; i++) {
+		SET(m, p->rgb[i], FV(0.f));
+		SET(m, p->before[0][i], FV(0.f));
+		SET(m, p->before[1][i], FV(0.f));
+	}
+	next_vertex(&p->random, m);
 }
 
-/* What ends a path that did not scatter: a quad at distance t, or what lies behind everything. */
-FN void see_end(const struct scene *s, const struct tables *tab, struct path *p, int surface, float t)
+/* Paths m set out on a flight from where they are. */
+FN void path_fly(const struct scene *s, const struct tables *t, struct path *p, mv m)
 {
-	float rgb[3];
-	if (surface == NONE)
-		sky_seen(s, tab, p->ray.along, p->chance, rgb);
-	else
-		quad_seen(s, surface, p->ray, t, p->chance, rgb);
-	for (int j = 0; j < p->waves.n; j++)
-		see(tab, p, j, p->density[j], rgb);
+	iv surface;
+	fv t_end = surface_distance(s, p->ray, &surface);
+	PUT(m, p->t_end, t_end);
+	PUT(m, p->surface, surface);
+	p->flying |= m;
+	march_begin(s, t, &p->march, m, p->ray, t_end, 1, p->waves, p->hero, &p->random);
 }
 
-/* Next-event estimation at a vertex: class NONE is the ground, on the side of normal. */
-FN void see_light(const struct scene *s, const struct tables *tab, struct path *p, struct vec point, int class, int id, float normal)
+/* What ends paths m, which did not scatter: a quad, or what lies behind everything. */
+FN void see_end(const struct scene *s, const struct tables *t, struct path *p, mv m)
+{
+	fv rgb[3];
+	sky_seen(s, t, m, p->ray.along, p->chance, rgb);
+	for (int i = 0; i < s->n_lights; i++) {
+		mv own = m & ieq(p->surface, IV(i));
+		if (any(own)) {
+			fv quad[3];
+			quad_seen(s, i, p->ray, p->t_end, p->chance, quad);
+			for (int c = 0; c < 3; c++)
+				SET(own, rgb[c], quad[c]);
+		}
+	}
+	EACH_WAVE(j)
+		see(s, t, p, m, j, DENSITY(p, j), rgb);
+}
+
+/* Next-event estimation at vertices m, before the shadow ray is known: lit, lamp, and the march to the light. */
+FN void path_light(const struct scene *s, const struct tables *t, struct path *p, mv m)
 {
 	struct drawn d;
-	if (!s->n_drawn)
-		return;
-	int i = (int)(draw(&p->random, DRAW_LIGHT) * (float)s->n_drawn);
-	if (!light_draw(s, tab, i, point, draw_bits(&p->random, DRAW_LIGHT_1), draw_bits(&p->random, DRAW_LIGHT_2), &d))
-		return;
-	struct ray r = { point, d.along, id, p->ray.area };
-	float value[MAX_WAVES] = { 0.f }, through[MAX_WAVES], chance = 0.f;
-	if (class == NONE) {
-		for (int j = 0; j < p->waves.n; j++)
-			value[j] = most(0.f, r.along.y * normal) / PI;
-		if (!(value[0] > 0.f))
-			return;
-	} else {
-		struct at_angle a = phase_locate(tab, class, angle_between(p->ray.along, r.along));
-		for (int j = 0; j < p->waves.n; j++)
-			value[j] = phase_value(tab, s->n_waves, a, wave_of(p->waves, j));
+	some_light(s, t, m, p->point, &p->random, &d);
+	struct ray r = { p->point, d.along, d.inverse, p->id };
+	mv ground = ieq(p->class, IV(NONE));
+	fv value[CARRIED], chance = FV(0.f);
+	if (s->isotropic)
+		EACH_WAVE(j)
+			value[j] = FV(ISOTROPIC);
+	else
+		phase_value(s, t, d.shines & NOT(ground), p->class, angle_between(p->ray.along, d.along), p->waves, value);
+	if (s->has_ground) {       /* on the side that the path comes from */
+		fv cosine = most(FV(0.f), SEL(lt(p->ray.along.y, FV(0.f)), d.along.y, -d.along.y));
+		EACH_WAVE(j)
+			SET(ground, value[j], cosine / PI);
+		d.shines &= NOT(ground) | lt(FV(0.f), cosine);
 	}
-	if (light_blocked(s, r, &d))
-		return;
-	transmittance(s, tab, r, d.t_end, p->waves, through);
-	for (int j = 0; j < p->waves.n; j++) {
-		value[j] *= p->density[j];
+	d.shines &= NOT(light_blocked(s, r, &d));
+	EACH_WAVE(j) {
+		value[j] *= DENSITY(p, j);
 		chance += value[j];
 	}
-	chance /= (float)p->waves.n;
-	float k = d.density > 0.f ? 1.f / (d.density + chance) : (float)s->n_drawn;
-	for (int j = 0; j < p->waves.n; j++)
-		see(tab, p, j, value[j] * through[j] * k, d.rgb);
+	if (CARRIED > 1)
+		chance /= to_float(p->waves.n);
+	fv k = FV((float)s->n_drawn);    /* of parallel light */
+	mv extended = m & lt(FV(0.f), d.density);
+	if (any(extended))
+		SET(extended, k, 1.f / (d.density + chance));
+	EACH_WAVE(j)
+		PUT(m, p->lit[j], SEL(d.shines, value[j] * k, FV(0.f)));
+	for (int i = 0; i < s->channels; i++)
+		PUT(m, p->lamp[i], d.rgb[i]);
+	march_begin(s, t, &p->march, d.shines, r, d.t_end, 0, p->waves, p->hero, &p->random);
+}
+
+/* Flights of lanes m have ended. Returns the lanes whose path is over. */
+FN mv path_arrive(const struct scene *s, const struct tables *t, struct path *p, mv m)
+{
+	fv event[CARRIED];
+	struct collision c = flight_end(s, t, &p->march, m, p->waves, p->hero, &p->random, event);
+	mv alive = m & lt(FV(0.f), take_event(s, p, m, event));
+	mv hit = alive & c.happened, ground = alive & NOT(c.happened) & ieq(p->surface, IV(GROUND)), out = alive & NOT(hit | ground);
+	mv over = m & NOT(hit | ground);
+	p->flying &= NOT(m);
+	if (any(out))
+		see_end(s, t, p, out);
+	m = hit | ground;
+	PUT3(m, p->point, c.point);
+	PUT(m, p->class, c.class);
+	PUT(m, p->id, c.id);
+	scattered(s, p, hit, c.t);
+	if (s->has_ground) {
+		struct vec floor = add(p->ray.from, scale(p->ray.along, p->t_end));
+		floor.y = FV(s->ground_height);
+		set3(ground, &p->point, floor);
+		SET(ground, p->class, IV(NONE));
+		SET(ground, p->id, IV(NONE));
+	}
+	EACH_WAVE(j) {
+		fv albedo = of_class(s, t->albedo, hit, p->class, p->waves, j);
+		PUT(m, p->weight[j], p->weight[j] * (s->has_ground ? SEL(hit, albedo, FV(s->ground_albedo)) : albedo));
+	}
+	if (s->n_drawn)
+		path_light(s, t, p, m);
+	return over;
 }
 
 /* Roulette on the throughput: survival is certain above 1/4, and 4 times the throughput below, never less than it. */
-FN int survives(struct path *p)
+FN mv survives(const struct scene *s, struct path *p, mv m)
 {
-	float throughput = 0.f;
-	for (int j = 0; j < p->waves.n; j++)
-		throughput = most(throughput, p->weight[j] * p->density[j]);
-	float q = 4.f * throughput;
-	if (!(q < 1.f))
-		return 1;
-	if (!(draw(&p->random, DRAW_ROULETTE) < q))
-		return 0;
-	for (int j = 0; j < p->waves.n; j++)
-		p->weight[j] /= q;
-	return 1;
+	fv throughput = FV(0.f);
+	EACH_WAVE(j)
+		throughput = most(throughput, p->weight[j] * DENSITY(p, j));
+	fv q = 4.f * throughput;
+	mv doubtful = m & lt(q, FV(1.f));
+	if (!any(doubtful))
+		return m;
+	EACH_WAVE(j)
+		SET(doubtful, p->weight[j], p->weight[j] / q);
+	return m & (NOT(doubtful) | lt(draw(&p->random, DRAW_ROULETTE), q));
 }
 
-/* One flight and what happens at its end; 0 when the path is over. */
-FN int path_bounce(const struct scene *s, const struct tables *tab, struct path *p)
+/* Shadow rays of lanes m have ended. Returns the lanes whose path is over. */
+FN mv path_depart(const struct scene *s, const struct tables *t, struct path *p, mv m)
 {
-	float event[MAX_WAVES];
-	int surface;
-	float t_end = surface_distance(s, p->ray, &surface);
-	struct collision c = free_flight(s, tab, p->ray, t_end, p->waves, p->hero, &p->random, DRAW_FLIGHT, event);
-	if (!(take_event(p, event) > 0.f))
-		return 0;
-	if (!c.happened && surface != GROUND) {
-		see_end(s, tab, p, surface, t_end);
-		return 0;
+	fv through[CARRIED], value[CARRIED], sn, cs;
+	if (s->n_drawn) {
+		shadow_end(s, t, &p->march, m, p->waves, through);
+		EACH_WAVE(j)
+			see(s, t, p, m & lt(FV(0.f), p->lit[j]), j, p->lit[j] * through[j], p->lamp);
 	}
-	struct vec point = c.point;
-	int class = c.happened ? c.class : NONE;
-	float normal = p->ray.along.y < 0.f ? 1.f : -1.f;
-	if (class == NONE) {
-		point = add(p->ray.from, scale(p->ray.along, t_end));
-		point.y = s->ground_height;
+	mv on = survives(s, p, m), ground = s->has_ground ? on & ieq(p->class, IV(NONE)) : NO_LANE, hit = on & NOT(ground);
+	struct vec axis = p->ray.along, along;
+	fv azimuth = 2.f * PI * draw(&p->random, DRAW_AZIMUTH);
+	if (s->isotropic) {
+		fv u = draw(&p->random, DRAW_ANGLE);
+		cs = 1.f - 2.f * u;
+		sn = 2.f * root(u * (1.f - u));
+		EACH_WAVE(j)
+			value[j] = FV(ISOTROPIC);
 	} else {
-		scattered(p, point);
+		phase_draw(s, t, hit, p->class, p->waves, p->hero, draw_bits(&p->random, DRAW_ANGLE), draw_bits(&p->random, DRAW_PLACE), &sn, &cs,
+		           value);
 	}
-	for (int j = 0; j < p->waves.n; j++)
-		p->weight[j] *= class == NONE ? s->ground_albedo : tab->albedo[class * s->n_waves + wave_of(p->waves, j)];
-	see_light(s, tab, p, point, class, c.id, normal);
-	if (!survives(p))
-		return 0;
-	float azimuth = 2.f * PI * draw(&p->random, DRAW_AZIMUTH), theta, sn, cs;
-	if (class == NONE) {       /* cosine-distributed */
-		float u = draw(&p->random, DRAW_ANGLE);
-		cs = root(1.f - u);
-		p->ray.along = around(vec3(0.f, normal, 0.f), root(u), cs, azimuth);
-		p->chance = cs / PI;
+	fv chance = take_event(s, p, hit, value);
+	if (s->has_ground) {       /* cosine-distributed */
+		fv u = draw(&p->random, DRAW_ANGLE);
+		SET(ground, sn, root(u));
+		SET(ground, cs, root(1.f - u));
+		SET(ground, chance, cs / PI);
+		set3(ground, &axis, vec3(FV(0.f), SEL(lt(p->ray.along.y, FV(0.f)), FV(1.f), FV(-1.f)), FV(0.f)));
+	}
+	if (s->isotropic && !s->has_ground) {    /* about any axis */
+		fv x, y;
+		sincos_of(azimuth, &y, &x);
+		along = vec3(sn * x, sn * y, cs);
 	} else {
-		struct at_angle a = phase_sample(tab, s->n_waves, class, wave_of(p->waves, p->hero), draw_bits(&p->random, DRAW_ANGLE), &theta);
-		for (int j = 0; j < p->waves.n; j++)
-			event[j] = phase_value(tab, s->n_waves, a, wave_of(p->waves, j));
-		p->chance = take_event(p, event);
-		sincos_of(theta, &sn, &cs);
-		p->ray.along = around(p->ray.along, sn, cs, azimuth);
+		along = around(axis, sn, cs, azimuth);
 	}
-	p->ray.from = point;
-	p->ray.skip = c.id;
-	next_vertex(&p->random);
-	return p->chance > 0.f;
+	PUT(on, p->chance, chance);
+	PUT3(on, p->ray.along, along);
+	PUT3(on, p->ray.inverse, inverse3(along));
+	PUT3(on, p->ray.from, p->point);
+	PUT(on, p->ray.skip, p->id);
+	next_vertex(&p->random, m);
+	return m & NOT(on & lt(FV(0.f), chance));
 }
 
 #endif

@@ -3,15 +3,15 @@
 #ifndef KERN_RANDOM_H
 #define KERN_RANDOM_H
 
-#include "render/kern/compat.h"
+#include "render/kern/lane.h"
 
-#define DIMENSIONS 8    /* drawn at a vertex, at most */
+#define DIMENSIONS 16    /* drawn at a vertex, at most */
 
 struct random {
-	uint32 key, counter;
+	uv key, counter;
 };
 
-FN uint32 mix(uint32 x, uint32 key)
+FN uv mix(uv x, uv key)
 {
 	x ^= x >> 16;
 	x *= 0x7feb352du;
@@ -21,18 +21,19 @@ FN uint32 mix(uint32 x, uint32 key)
 	return x ^ x >> 16;
 }
 
-FN struct random random_of(uint32 seed, uint32 pixel, uint32 sample)
+FN struct random random_of(uint32 seed, uv pixel, uv sample)
 {
 	struct random r;
-	uint32 a = mix(pixel + 0x9e3779b9u, mix(seed, 0x85ebca6bu));
+	uv a = mix(pixel + 0x9e3779b9u, UV(seed * 0x9e3779b1u ^ 0x85ebca6bu));
 	r.key = mix(sample + 0x7f4a7c15u, a);
-	r.counter = mix(sample ^ 0x2545f491u, mix(a, r.key));
+	r.counter = mix(a ^ 0x2545f491u, r.key);
 	return r;
 }
 
 /* Dimension d of the vertex at hand: 32 random bits, or a number in [0, 1) of 24 bits. */
-FN uint32 draw_bits(const struct random *r, int d) { return mix(r->counter + (uint32)d * 0x9e3779b9u, r->key); }
-FN float draw(const struct random *r, int d) { return (float)(draw_bits(r, d) >> 8) * 0x1p-24f; }
-FN void next_vertex(struct random *r) { r->counter += DIMENSIONS * 0x9e3779b9u; }
+FN uv draw_bits(const struct random *r, int d) { return mix(r->counter + (uint32)d * 0x9e3779b9u, r->key); }
+FN fv unit_of(uv bits) { return to_float(signed_of(bits >> 8)) * 0x1p-24f; }
+FN fv draw(const struct random *r, int d) { return unit_of(draw_bits(r, d)); }
+FN void next_vertex(struct random *r, mv m) { r->counter = SEL(m, r->counter + DIMENSIONS * 0x9e3779b9u, r->counter); }
 
 #endif

@@ -8,54 +8,106 @@
 #define FAR 3e38f
 #define NONE (-1)
 
-/* The wavelengths of a path: index wave_of(w, j) in the medium's list, j < n. */
+/* A build for one transport or number of wavelengths gives them as constants; here, as they are in the scene. */
+#ifndef TRANSPORT
+#define TRANSPORT (s->transport)
+#endif
+#ifdef WAVES
+#define CARRIED WAVES
+#define EACH_WAVE(j) for (int j = 0; j < WAVES; j++)
+#else
+#define CARRIED MAX_WAVES
+#define EACH_WAVE(j) for (int j = 0; j < s->carried; j++)
+#endif
+
+/* The wavelengths of a path: index wave_of(w, j) in the medium's list, j < n. Where the largest group has one more, it stands for
+ * any; its density is 0. */
 struct waves {
-	int n, first, step;
+	iv n, first;
 };
 
-FN int wave_of(struct waves w, int j) { return w.first + w.step * j; }
+/* A value of wavelength j, from a row of values by wavelength; of lanes m. */
+#ifdef WAVES
+FN iv wave_of(const struct scene *s, struct waves w, int j) { return (void)s, (void)w, IV(j); }
+FN fv of_wave(const struct scene *s, GLOBAL const float *row, mv m, struct waves w, int j) { return (void)s, (void)w, (void)m, FV(row[j]); }
+#else
+FN iv wave_of(const struct scene *s, struct waves w, int j) { return ileast(w.first + s->n_groups * j, IV(s->n_waves - 1)); }
+FN fv of_wave(const struct scene *s, GLOBAL const float *row, mv m, struct waves w, int j) { return gather(m, row, wave_of(s, w, j)); }
+#endif
 
-struct ray {
-	struct vec from, along;
-	int skip;                  /* particle that it starts from, or NONE */
-	float area;                /* cross-section of the cylinder that a fat ray queries, m^2, constant along a path */
-};
-
-FN float inverse(float x) { return 1.f / (x < 0.f ? least(x, -1e-20f) : most(x, 1e-20f)); }
-
-/* [*t0, *t1], *t0 >= 0, of the ray lies in the box widened by a margin; nothing if *t0 >= *t1. */
-FN void clip_box(struct ray r, const float *low, const float *high, float margin, float *t0, float *t1)
+/* The same from a table [class][wave]. */
+FN fv of_class(const struct scene *s, GLOBAL const float *table, mv m, iv class, struct waves w, int j)
 {
-	float ix = inverse(r.along.x), iy = inverse(r.along.y), iz = inverse(r.along.z);
-	float ax = (low[0] - margin - r.from.x) * ix, bx = (high[0] + margin - r.from.x) * ix;
-	float ay = (low[1] - margin - r.from.y) * iy, by = (high[1] + margin - r.from.y) * iy;
-	float az = (low[2] - margin - r.from.z) * iz, bz = (high[2] + margin - r.from.z) * iz;
-	*t0 = most(most(0.f, least(ax, bx)), most(least(ay, by), least(az, bz)));
-	*t1 = least(most(ax, bx), least(most(ay, by), most(az, bz)));
+	if (s->only_class >= 0)
+		return of_wave(s, table + s->only_class * s->n_waves, m, w, j);
+	return gather(m, table, class * s->n_waves + wave_of(s, w, j));
 }
 
-FN void clip_sphere(struct ray r, float radius, float *t0, float *t1)
+/* The index of the hero, one of j < n, in the medium's list; and a value of it. */
+FN iv hero_of(const struct scene *s, struct waves w, iv hero)
+{
+#if defined WAVES && WAVES == 1
+	return (void)s, (void)w, (void)hero, IV(0);
+#else
+	return w.first + s->n_groups * hero;
+#endif
+}
+
+FN fv of_hero(const struct scene *s, GLOBAL const float *row, mv m, struct waves w, iv hero)
+{
+	return CARRIED == 1 ? FV(row[0]) : gather(m, row, hero_of(s, w, hero));
+}
+
+FN fv hero_among(const struct scene *s, const fv *value, iv hero)
+{
+	fv own = value[0];
+	EACH_WAVE(j)
+		own = SEL(ieq(hero, IV(j)), value[j], own);
+	return own;
+}
+
+struct ray {
+	struct vec from, along, inverse;    /* 1 / along */
+	iv skip;                   /* particle that it starts from, or NONE */
+};
+
+FN fv off_zero(fv x, float least_of) { return SEL(lt(x, FV(0.f)), least(x, FV(-least_of)), most(x, FV(least_of))); }
+FN fv inverse(fv x) { return 1.f / off_zero(x, 1e-20f); }
+
+/* 1 / x, 1 / y, 1 / z of a direction by one division; no less than 1e-12 in size is taken. */
+FN struct vec inverse3(struct vec v)
+{
+	fv x = off_zero(v.x, 1e-12f), y = off_zero(v.y, 1e-12f), z = off_zero(v.z, 1e-12f), xy = x * y, all = 1.f / (xy * z), k = all * z;
+	return vec3(y * k, x * k, xy * all);
+}
+
+/* [*t0, *t1], *t0 >= 0, of the ray lies in the box; nothing if *t0 >= *t1. */
+FN void clip_box(struct ray r, struct vec centre, struct vec half_size, fv *t0, fv *t1)
+{
+	struct vec i = r.inverse, from = sub(r.from, centre);
+	fv x = from.x * i.x, y = from.y * i.y, z = from.z * i.z;
+	fv u = half_size.x * size_of(i.x), v = half_size.y * size_of(i.y), w = half_size.z * size_of(i.z);
+	*t0 = most(FV(0.f), most(-u - x, most(-v - y, -w - z)));
+	*t1 = least(u - x, least(v - y, w - z));
+}
+
+FN void clip_sphere(struct ray r, float radius, fv *t0, fv *t1)
 {
 	/* The nearest point of the ray to the centre first: the half chord then has no cancellation. */
-	float middle = -dot3(r.from, r.along);
+	fv middle = -dot3(r.from, r.along);
 	struct vec nearest = add(r.from, scale(r.along, middle));
-	float h2 = radius * radius - dot3(nearest, nearest);
-	float h = root(most(h2, 0.f));
-	*t0 = most(0.f, middle - h);
-	*t1 = h2 > 0.f ? middle + h : 0.f;
+	fv h2 = radius * radius - dot3(nearest, nearest), h = root(most(h2, FV(0.f)));
+	*t0 = most(FV(0.f), middle - h);
+	*t1 = SEL(lt(FV(0.f), h2), middle + h, FV(0.f));
 }
 
 /* The medium's own shape; particles in voxels fill these, which for a sphere reach beyond it. */
-FN void clip_medium(const struct scene *s, struct ray r, float *t0, float *t1)
+FN void clip_medium(const struct scene *s, struct ray r, fv *t0, fv *t1)
 {
-	if (s->transport == TRANSPORT_GRID && s->counted)
-		clip_box(r, s->voxel_low, s->voxel_high, 0.f, t0, t1);
-	else if (s->round)
+	if (s->round && !(TRANSPORT == TRANSPORT_GRID && s->counted))
 		clip_sphere(r, s->extent[0], t0, t1);
-	else {
-		float low[3] = { -s->extent[0], -s->extent[1], -s->extent[2] };
-		clip_box(r, low, s->extent, 0.f, t0, t1);
-	}
+	else
+		clip_box(r, vec3(FV(0.f), FV(0.f), FV(0.f)), load3(s->extent), t0, t1);
 }
 
 #endif

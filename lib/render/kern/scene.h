@@ -3,7 +3,7 @@
 #ifndef KERN_SCENE_H
 #define KERN_SCENE_H
 
-#include "render/kern/compat.h"
+#include "render/kern/lane.h"
 
 #define MAX_WAVES 8      /* wavelengths carried by one path; a medium of more is divided into interleaved groups */
 #define MAX_LIGHTS 16
@@ -17,6 +17,7 @@ struct light {
 	int kind;
 	float rgb[3];              /* radiance, of a parallel sun irradiance; a map has its own */
 	float at[3];               /* sun: unit vector to its centre; quad: corner */
+	float inverse[3];          /* sun: 1 / at */
 	float cap;                 /* sun: 1 - cos of its angular radius; 0: parallel */
 	float density;             /* sun: of the directions drawn over the disc, sr^-1; quad: of its points, m^-2 */
 	float edge[2][3];          /* quad: from the corner */
@@ -31,15 +32,21 @@ struct scene {
 	int transport, attenuation;
 	float fat;                 /* cross-section of fat rays, m^2 */
 	int n_waves, n_groups;
+	int carried;               /* wavelengths of the largest group */
 	int n_classes;             /* class n_classes is the mixture of the whole medium */
+	int only_class;            /* that scatters, or -1 where there are several */
+	int isotropic;             /* all phase functions are 1 / (4 pi) */
 	int round;                 /* the medium fills a sphere of radius extent[0], else a box */
 	float extent[3];
-	float largest;             /* the largest disc: its squared radius, m^2 */
+	float largest, largest_inverse;       /* the largest disc: its squared radius, m^2; and 1 / that */
 	int cells[3];              /* grid over the centres of the particles */
-	float grid_low[3], grid_high[3], cell[3];
-	int voxels[3];             /* counted: cubes of particles; else nodes of a density */
-	int counted;
-	float voxel_low[3], voxel_high[3], voxel[3];
+	float grid_low[3], cell[3];
+	float grid_centre[3], grid_reached[3];    /* that box and, around it, what the query reaches: half sizes */
+	float reach2;              /* squared radius of the cylinder that must hold a centre */
+	float reach;               /* that radius, and what rounding may move a place in the grid */
+	int counted;               /* voxels are cubes of particles, else the cells between the nodes of a density */
+	int voxels[3], bricks[3];
+	float voxel_low[3], voxel[3], voxels_per_m[3];
 	int has_ground;
 	float ground_height, ground_albedo;
 	float environment[3];      /* radiance, the same all around */
@@ -48,26 +55,30 @@ struct scene {
 	int map_width, map_height;
 	float map_angle;           /* solid angle of a texel / sin of the polar angle of its centre, sr */
 	struct light light[MAX_LIGHTS];
+	int channels;              /* 3; 1 where red, green and blue are the same */
 	int film_sums;             /* of a pixel: FILM_SUMS, and one a wavelength if spectral */
 	int spectral;
 	float depth_scale;         /* a power of 2: depths times this are below 1 */
 };
+
+#define ANGLE_STEPS 256      /* of the first level of the index of angles */
 
 struct tables {
 	GLOBAL const float *extinction;  /* [wave] m^-1, of the whole medium; for a density grid, where it is 1 */
 	GLOBAL const float *disc;        /* [class][wave] squared radius of the disc of area c_ext, m^2 */
 	GLOBAL const float *albedo;      /* [class][wave] */
 	GLOBAL const float *colour;      /* [wave][6] linear RGB of radiance 1; the shares of a light's R, G and B in it */
-	GLOBAL const int *node;          /* [class][2] first node of the phase table, number of nodes */
-	GLOBAL const float *theta;       /* [node] rad */
-	GLOBAL const float *p;           /* [node][wave] sr^-1, linear in theta between nodes */
-	GLOBAL const uint32 *cdf;        /* [node][wave] in units of 2^-32, the last node's 2^32 wrapped to 0 */
+	GLOBAL const int *phase;         /* [class][4] where its phase function stands in the next three, see phase.h */
+	GLOBAL const float *interval;    /* [interval][4 + 2 wave] sin, cos, theta, width; for each wavelength p in sr^-1 and its slope */
+	GLOBAL const int *alias;         /* [column][wave][2] threshold, the other interval */
+	GLOBAL const int *angle;         /* [step][2] first part, number of parts; [part][2] interval, the bits of where the next begins */
 	GLOBAL const float *particle;    /* [particle][4] position m, the bits of the class; cell by cell */
-	GLOBAL const uint32 *first;      /* [cell] its first particle; one more at the end */
-	GLOBAL const float *voxel;       /* [voxel][wave] extinction, m^-1; or [node], density relative to extinction[] */
-	GLOBAL const uint32 *count;      /* [voxel][class] particles */
+	GLOBAL const int *first;         /* [cell] its first particle; one more at the end */
+	GLOBAL const int *brick;         /* [brick] where its voxels begin, NONE if nothing is in them; see voxels.h */
+	GLOBAL const float *voxel;       /* by brick: [voxel][wave] extinction, m^-1; or nodes of density relative to extinction[] */
+	GLOBAL const int *count;         /* [voxel][class] particles, row by row */
 	GLOBAL const float *map;         /* [row][column][3] radiance */
-	GLOBAL const uint32 *map_cdf;    /* [row + 1] of the rows, then [row][column + 1] of each row's texels, in units of 2^-31 */
+	GLOBAL const int *map_cdf;       /* [row + 1] of the rows, then [row][column + 1] of each row's texels, in units of 2^-31 */
 };
 
 #endif

@@ -1,0 +1,91 @@
+#include "render/bricks.h"
+
+#include "base/die.h"
+#include "render/kern/voxels.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What one brick holds, by its place in cells; returns whether there is anything in it. */
+typedef int fill_fn(const struct medium *m, const int *cell, float *out);
+
+/* Extinction in cubes. A cube that the box cuts has its particles in the part inside. */
+static int fill_cubes(const struct medium *m, const int *cell, float *out)
+{
+	int waves = m->n_waves, classes = m->n_classes, some = 0;
+	memset(out, 0, (size_t)(BRICK_CELLS * waves) * sizeof *out);
+	for (int v = 0; v < BRICK_CELLS; v++) {
+		const int i[3] = { cell[0] + v % BRICK, cell[1] + v / BRICK % BRICK, cell[2] + v / BRICK / BRICK };
+		if (i[0] >= m->voxels[0] || i[1] >= m->voxels[1] || i[2] >= m->voxels[2])
+			continue;
+		double volume = 1;
+		for (int a = 0; a < 3; a++)
+			volume *= fmin(m->voxel, 2 * m->half[a] - i[a] * m->voxel);
+		const uint32_t *count = m->voxel_count
+		    + (((size_t)i[2] * (size_t)m->voxels[1] + (size_t)i[1]) * (size_t)m->voxels[0] + (size_t)i[0]) * (size_t)classes;
+		for (int w = 0; w < waves; w++) {
+			double c = 0;
+			for (int k = 0; k < classes; k++)
+				c += count[k] * m->c_ext[k * waves + w];
+			out[v * waves + w] = (float)(c * 1e-12 / volume);
+			some |= c > 0;
+		}
+	}
+	return some;
+}
+
+static int clamp(int i, int n) { return i < 0 ? 0 : i > n - 1 ? n - 1 : i; }
+
+/* Faces of a density: cell i lies between nodes i - 1 and i, the outermost nodes going on to the border. */
+static int fill_density(const struct medium *m, const int *cell, float *out)
+{
+	int some = 0;
+	for (int z = 0; z <= BRICK; z++)
+		for (int y = 0; y < BRICK; y++)
+			for (int x = 0; x <= BRICK; x++)
+				for (int k = 0; k < 2; k++) {
+					size_t i = (size_t)clamp(cell[0] + x - 1, m->voxels[0]), j = (size_t)clamp(cell[1] + y + k - 1, m->voxels[1]);
+					size_t l = (size_t)clamp(cell[2] + z - 1, m->voxels[2]);
+					float v = m->density[(l * (size_t)m->voxels[1] + j) * (size_t)m->voxels[0] + i];
+					out[z * FACE + y * FACE_ROW + 2 * x + k] = v;
+					some |= v > 0;
+				}
+	return some;
+}
+
+void bricks_make(struct bricks *b, const struct medium *m)
+{
+	int counted = m->n_particles > 0;
+	size_t one = counted ? (size_t)(BRICK_CELLS * m->n_waves) : BRICK_CORNERS, kept = 0;
+	fill_fn *fill = counted ? fill_cubes : fill_density;
+	float *scratch = xalloc(one, sizeof *scratch);
+	memset(b, 0, sizeof *b);
+	for (int a = 0; a < 3; a++)
+		b->size[a] = (m->voxels[a] + !counted + BRICK - 1) / BRICK;
+	b->n_brick = (size_t)b->size[0] * (size_t)b->size[1] * (size_t)b->size[2];
+	b->brick = xalloc(b->n_brick, sizeof *b->brick);
+	for (int pass = 0; pass < 2; pass++) {    /* first which are kept, then what they hold */
+		for (size_t i = 0; i < b->n_brick; i++) {
+			const int cell[3] = { BRICK * (int)(i % (size_t)b->size[0]), BRICK * (int)(i / (size_t)b->size[0] % (size_t)b->size[1]),
+				BRICK * (int)(i / (size_t)b->size[0] / (size_t)b->size[1]) };
+			if (pass && b->brick[i] >= 0)
+				fill(m, cell, b->voxel + (size_t)b->brick[i] * one);
+			else if (!pass)
+				b->brick[i] = fill(m, cell, scratch) ? (int32_t)kept++ : -1;
+		}
+		if (kept * one > INT32_MAX)
+			die("medium", "has too many voxels to render as a grid: %zu x %d are filled", kept, BRICK_CELLS);
+		if (!pass) {
+			b->n_voxel = kept * one;
+			b->voxel = xalloc(b->n_voxel, sizeof *b->voxel);
+		}
+	}
+	free(scratch);
+}
+
+void bricks_free(struct bricks *b)
+{
+	free(b->brick);
+	free(b->voxel);
+}

@@ -1,0 +1,309 @@
+/* lane - LANES floats, integers or truths side by side: what the kernels compute with, in C and in OpenCL C 1.2, from one source.
+ *
+ * fv, iv, uv are floats, signed and unsigned integers of 32 bits, one a lane; + - * / & | ^ << >> work on them as on scalars, and
+ * scalars spread over all lanes. mv is a truth a lane, made by lt, le, ilt, ieq; &, | and NOT work on it. Its value differs from one
+ * build to the next and is never used: SEL(m, a, b), any, count and LANE_IN read it.
+ *
+ * Only + - * / and sqrt of floats, integer operations and in-range conversions are used: each is exact or correctly rounded,
+ * nothing is contracted, no lane looks at another one, and so every build gives the same bits at every width. */
+#ifndef KERN_LANE_H
+#define KERN_LANE_H
+
+#ifndef LANES
+#define LANES 1
+#endif
+#define PASTE_(a, b) a##b
+#define PASTE(a, b) PASTE_(a, b)
+#define EACH_LANE(i) for (int i = 0; i < LANES; i++)
+#define EACH_LANE_OF(m, i) EACH_LANE(i) if (LANE_IN(m, i))
+
+#ifdef __OPENCL_VERSION__
+/* ------------------------------------------------------------------ OpenCL */
+#pragma OPENCL FP_CONTRACT OFF
+#ifndef FN
+#define FN static inline __attribute__((always_inline))
+#endif
+#define GLOBAL __global
+typedef long int64;
+typedef uint uint32;
+typedef ulong uint64;
+#if LANES == 1
+typedef float fv;
+typedef int iv, mv;
+typedef uint uv;
+#define WIDE
+#define LANE(v, i) (v)
+#define TRUTH(c) (-(c))    /* a scalar comparison gives 1, one of vectors -1 */
+#else
+typedef PASTE(float, LANES) fv;
+typedef PASTE(int, LANES) iv, mv;
+typedef PASTE(uint, LANES) uv;
+#define WIDE LANES
+#define LANE(v, i) (((__private int *)&(v))[i])
+#define TRUTH(c) (c)
+#endif
+#define LANE_FLOAT(v, i) as_float(LANE(v, i))
+#define LANE_IN(m, i) LANE(m, i)
+#define FV(x) ((fv)(x))
+#define IV(x) ((iv)(x))
+#define UV(x) ((uv)(x))
+#define NO_LANE ((mv)(0))
+#define ALL_LANES ((mv)(-1))
+#define NOT(m) (~(m))
+#define SEL(m, a, b) ((m) ? (a) : (b))
+FN fv bits_float(uv x) { return PASTE(as_float, WIDE)(x); }
+FN uv float_bits(fv x) { return PASTE(as_uint, WIDE)(x); }
+FN iv signed_of(uv x) { return PASTE(as_int, WIDE)(x); }
+FN uv unsigned_of(iv x) { return PASTE(as_uint, WIDE)(x); }
+FN fv to_float(iv x) { return PASTE(convert_float, WIDE)(x); }
+FN iv to_int(fv x) { return PASTE(PASTE(convert_int, WIDE), _rtz)(x); }
+FN fv root(fv x) { return sqrt(x); }
+FN mv lt(fv a, fv b) { return TRUTH(a < b); }
+FN mv le(fv a, fv b) { return TRUTH(a <= b); }
+FN mv ilt(iv a, iv b) { return TRUTH(a < b); }
+FN mv ieq(iv a, iv b) { return TRUTH(a == b); }
+#if LANES == 16
+#define FROM_TABLE(p, i) (p[i.s0], p[i.s1], p[i.s2], p[i.s3], p[i.s4], p[i.s5], p[i.s6], p[i.s7], \
+                          p[i.s8], p[i.s9], p[i.sa], p[i.sb], p[i.sc], p[i.sd], p[i.se], p[i.sf])
+FN int sum4(int4 a) { return a.x + a.y + a.z + a.w; }
+FN int count(mv m) { return -sum4(m.lo.lo + m.lo.hi + m.hi.lo + m.hi.hi); }
+#elif LANES == 8
+#define FROM_TABLE(p, i) (p[i.s0], p[i.s1], p[i.s2], p[i.s3], p[i.s4], p[i.s5], p[i.s6], p[i.s7])
+FN int sum4(int4 a) { return a.x + a.y + a.z + a.w; }
+FN int count(mv m) { return -sum4(m.lo + m.hi); }
+#elif LANES == 4
+#define FROM_TABLE(p, i) (p[i.x], p[i.y], p[i.z], p[i.w])
+FN int count(mv m) { return -(m.x + m.y + m.z + m.w); }
+#else
+#define FROM_TABLE(p, i) (p[i])
+FN int count(mv m) { return -m; }
+#endif
+typedef float8 f8;
+typedef long8 l8;
+FN l8 l8_of(f8 x) { return convert_long8_rtz(x); }
+FN f8 f8_of(l8 x) { return convert_float8(x); }
+FN l8 l8_load(GLOBAL const int64 *p) { return vload8(0, p); }
+FN void l8_store(GLOBAL int64 *p, l8 x) { vstore8(x, 0, p); }
+#define PART(v, i) (((__private int64 *)&(v))[i])
+#define F8(...) ((f8)(__VA_ARGS__))
+#define L8(...) ((l8)(__VA_ARGS__))
+FN uint64 high_product(uint64 a, uint64 b) { return mul_hi(a, b); }
+FN fv gather(mv m, GLOBAL const float *p, iv i) { i &= m; return (fv)FROM_TABLE(p, i); }
+FN iv igather(mv m, GLOBAL const int *p, iv i) { i &= m; return (iv)FROM_TABLE(p, i); }
+FN void gather4(mv m, GLOBAL const float *p, iv i, fv *out)
+{
+	for (int k = 0; k < 4; k++)
+		out[k] = gather(m, p + k, i);
+}
+FN void igather2(mv m, GLOBAL const int *p, iv i, iv *out)
+{
+	out[0] = igather(m, p, i);
+	out[1] = igather(m, p + 1, i);
+}
+
+#else
+/* ------------------------------------------------------------------ C */
+#include <stdint.h>
+#include <string.h>
+#define FN static inline __attribute__((always_inline, unused))
+#define GLOBAL
+typedef int64_t int64;
+typedef uint32_t uint32;
+typedef uint64_t uint64;
+typedef float f8 __attribute__((vector_size(32)));
+typedef int64 l8 __attribute__((vector_size(64)));
+FN l8 l8_of(f8 x) { return __builtin_convertvector(x, l8); }
+FN f8 f8_of(l8 x) { return __builtin_convertvector(x, f8); }
+FN l8 l8_load(const int64 *p) { l8 x; memcpy(&x, p, sizeof x); return x; }
+FN void l8_store(int64 *p, l8 x) { memcpy(p, &x, sizeof x); }
+#define PART(v, i) (v)[i]
+#define F8(...) ((f8){ __VA_ARGS__ })
+#define L8(...) ((l8){ __VA_ARGS__ })
+FN uint64 high_product(uint64 a, uint64 b) { return (uint64)((unsigned __int128)a * b >> 64); }
+#if LANES == 1
+typedef float fv;
+typedef int32_t iv, mv;
+typedef uint32_t uv;
+#define LANE(v, i) (v)
+#define LANE_IN(m, i) (m)
+#define FV(x) ((float)(x))
+#define IV(x) ((int32_t)(x))
+#define UV(x) ((uint32_t)(x))
+#define NO_LANE 0
+#define ALL_LANES (-1)
+#define NOT(m) (~(m))
+#define SEL(m, a, b) ((m) ? (a) : (b))
+FN fv bits_float(uv x) { float f; memcpy(&f, &x, 4); return f; }
+FN uv float_bits(fv x) { uint32_t u; memcpy(&u, &x, 4); return u; }
+FN fv to_float(iv x) { return (float)x; }
+FN iv to_int(fv x) { return (int32_t)x; }
+FN mv lt(fv a, fv b) { return -(a < b); }
+FN mv le(fv a, fv b) { return -(a <= b); }
+FN mv ilt(iv a, iv b) { return -(a < b); }
+FN mv ieq(iv a, iv b) { return -(a == b); }
+FN fv root(fv x) { return __builtin_sqrtf(x); }
+FN int any(mv m) { return m; }
+FN int count(mv m) { return -m; }
+FN fv gather(mv m, const float *p, iv i) { return m ? p[i] : 0.f; }
+FN iv igather(mv m, const int *p, iv i) { return m ? p[i] : 0; }
+#else
+#include <immintrin.h>
+typedef float fv __attribute__((vector_size(4 * LANES)));
+typedef int32_t iv __attribute__((vector_size(4 * LANES)));
+typedef uint32_t uv __attribute__((vector_size(4 * LANES)));
+#define LANE(v, i) ((v)[i])
+FN fv FV(float x) { return x - (fv){ 0 }; }
+FN iv IV(int32_t x) { return x - (iv){ 0 }; }
+FN uv UV(uint32_t x) { return x - (uv){ 0 }; }
+FN fv bits_float(uv x) { return (fv)x; }
+FN uv float_bits(fv x) { return (uv)x; }
+FN fv to_float(iv x) { return __builtin_convertvector(x, fv); }
+FN iv to_int(fv x) { return __builtin_convertvector(x, iv); }
+#if LANES == 16            /* AVX-512: truths are bits */
+typedef __mmask16 mv;
+#define LANE_IN(m, i) ((m) >> (i) & 1)
+#define NO_LANE ((mv)0)
+#define ALL_LANES ((mv)0xffff)
+#define NOT(m) ((mv)~(m))
+#undef EACH_LANE_OF        /* their bits, one by one */
+#define EACH_LANE_OF(m, i) for (unsigned bits = (m), i = (unsigned)__builtin_ctz(bits | 0x10000); bits; bits &= bits - 1, i = (unsigned)__builtin_ctz(bits | 0x10000))
+#define SEL(m, a, b) ((__typeof__(a))_mm512_mask_blend_epi32(m, (__m512i)(b), (__m512i)(a)))
+FN mv lt(fv a, fv b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ); }
+FN mv le(fv a, fv b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LE_OQ); }
+FN mv ilt(iv a, iv b) { return _mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b); }
+FN mv ieq(iv a, iv b) { return _mm512_cmpeq_epi32_mask((__m512i)a, (__m512i)b); }
+FN fv root(fv x) { return (fv)_mm512_sqrt_ps((__m512)x); }
+FN int any(mv m) { return m != 0; }
+FN int count(mv m) { return __builtin_popcount(m); }
+FN fv gather(mv m, const float *p, iv i) { return (fv)_mm512_mask_i32gather_ps(_mm512_setzero_ps(), m, (__m512i)i, p, 4); }
+FN iv igather(mv m, const int *p, iv i) { return (iv)_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), m, (__m512i)i, p, 4); }
+#else                      /* truths are lanes of 0 or -1 */
+typedef iv mv;
+#define LANE_IN(m, i) ((m)[i])
+#define NO_LANE ((mv){ 0 })
+#define ALL_LANES (NO_LANE - 1)
+#define NOT(m) (~(m))
+FN mv lt(fv a, fv b) { return a < b; }
+FN mv le(fv a, fv b) { return a <= b; }
+FN mv ilt(iv a, iv b) { return a < b; }
+FN mv ieq(iv a, iv b) { return a == b; }
+#if LANES == 8             /* AVX2 */
+#define SEL(m, a, b) ((__typeof__(a))_mm256_blendv_epi8((__m256i)(b), (__m256i)(a), (__m256i)(m)))
+FN fv root(fv x) { return (fv)_mm256_sqrt_ps((__m256)x); }
+FN int any(mv m) { return _mm256_movemask_ps((__m256)m) != 0; }
+FN int count(mv m) { return __builtin_popcount((unsigned)_mm256_movemask_ps((__m256)m)); }
+FN fv gather(mv m, const float *p, iv i) { return (fv)_mm256_mask_i32gather_ps(_mm256_setzero_ps(), p, (__m256i)i, (__m256)m, 4); }
+FN iv igather(mv m, const int *p, iv i) { return (iv)_mm256_mask_i32gather_epi32(_mm256_setzero_si256(), p, (__m256i)i, (__m256i)m, 4); }
+#else                      /* SSE4.1, 4 lanes */
+#define SEL(m, a, b) ((__typeof__(a))_mm_blendv_epi8((__m128i)(b), (__m128i)(a), (__m128i)(m)))
+FN fv root(fv x) { return (fv)_mm_sqrt_ps((__m128)x); }
+FN int any(mv m) { return _mm_movemask_ps((__m128)m) != 0; }
+FN int count(mv m) { return __builtin_popcount((unsigned)_mm_movemask_ps((__m128)m)); }
+FN fv gather(mv m, const float *p, iv i)
+{
+	fv r = { 0 };
+	EACH_LANE(k) r[k] = m[k] ? p[i[k]] : 0.f;
+	return r;
+}
+FN iv igather(mv m, const int *p, iv i)
+{
+	iv r = { 0 };
+	EACH_LANE(k) r[k] = m[k] ? p[i[k]] : 0;
+	return r;
+}
+#endif
+#endif
+#endif
+FN iv signed_of(uv x) { return (iv)x; }
+FN uv unsigned_of(iv x) { return (uv)x; }
+#define LANE_FLOAT(v, i) LANE(v, i)
+
+/* Four floats in a row, p[i] to p[i + 3], or two integers; what comes to lanes outside m has no meaning. */
+#if LANES == 1
+FN void igather2(mv m, const int *p, iv i, iv *out)
+{
+	p += m ? i : 0;
+	out[0] = p[0];
+	out[1] = p[1];
+}
+FN void gather4(mv m, const float *p, iv i, fv *out)
+{
+	p += m ? i : 0;
+	for (int k = 0; k < 4; k++)
+		out[k] = p[k];
+}
+#else
+/* A row is one load; the rest is the transposition of rows of 128 bits, four lanes apart in a vector. */
+FN void gather4(mv m, const float *p, iv i, fv *out)
+{
+	union { iv v; int32_t i[LANES]; } at = { SEL(m, i, IV(0)) };
+#define ROW(k) _mm_loadu_ps(p + at.i[k])
+#if LANES == 16
+	__m512 r[4];
+	for (int k = 0; k < 4; k++) {
+		__m256 low = _mm256_insertf128_ps(_mm256_castps128_ps256(ROW(k)), ROW(k + 4), 1);
+		__m256 high = _mm256_insertf128_ps(_mm256_castps128_ps256(ROW(k + 8)), ROW(k + 12), 1);
+		r[k] = _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
+	}
+#define T(op, a, b) _mm512_castpd_ps(_mm512_##op##_pd(_mm512_castps_pd(a), _mm512_castps_pd(b)))
+	__m512 a = _mm512_unpacklo_ps(r[0], r[1]), b = _mm512_unpackhi_ps(r[0], r[1]);
+	__m512 c = _mm512_unpacklo_ps(r[2], r[3]), d = _mm512_unpackhi_ps(r[2], r[3]);
+#elif LANES == 8
+	__m256 r[4];
+	for (int k = 0; k < 4; k++)
+		r[k] = _mm256_insertf128_ps(_mm256_castps128_ps256(ROW(k)), ROW(k + 4), 1);
+#define T(op, a, b) _mm256_castpd_ps(_mm256_##op##_pd(_mm256_castps_pd(a), _mm256_castps_pd(b)))
+	__m256 a = _mm256_unpacklo_ps(r[0], r[1]), b = _mm256_unpackhi_ps(r[0], r[1]);
+	__m256 c = _mm256_unpacklo_ps(r[2], r[3]), d = _mm256_unpackhi_ps(r[2], r[3]);
+#else
+#define T(op, a, b) _mm_castpd_ps(_mm_##op##_pd(_mm_castps_pd(a), _mm_castps_pd(b)))
+	__m128 a = _mm_unpacklo_ps(ROW(0), ROW(1)), b = _mm_unpackhi_ps(ROW(0), ROW(1));
+	__m128 c = _mm_unpacklo_ps(ROW(2), ROW(3)), d = _mm_unpackhi_ps(ROW(2), ROW(3));
+#endif
+	out[0] = (fv)T(unpacklo, a, c);
+	out[1] = (fv)T(unpackhi, a, c);
+	out[2] = (fv)T(unpacklo, b, d);
+	out[3] = (fv)T(unpackhi, b, d);
+#undef T
+#undef ROW
+}
+FN void igather2(mv m, const int *p, iv i, iv *out)
+{
+	union { iv v; int32_t i[LANES]; } at = { SEL(m, i, IV(0)) };
+#define ROWS(k) _mm_loadh_pi(_mm_castsi128_ps(_mm_loadl_epi64((const __m128i *)(p + at.i[k]))), (const __m64 *)(p + at.i[(k) + 1]))
+#if LANES == 16
+	__m512 r[2];
+	for (int k = 0; k < 2; k++) {
+		__m256 low = _mm256_insertf128_ps(_mm256_castps128_ps256(ROWS(2 * k)), ROWS(2 * k + 4), 1);
+		__m256 high = _mm256_insertf128_ps(_mm256_castps128_ps256(ROWS(2 * k + 8)), ROWS(2 * k + 12), 1);
+		r[k] = _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
+	}
+	out[0] = (iv)_mm512_shuffle_ps(r[0], r[1], 0x88);
+	out[1] = (iv)_mm512_shuffle_ps(r[0], r[1], 0xdd);
+#elif LANES == 8
+	__m256 r[2];
+	for (int k = 0; k < 2; k++)
+		r[k] = _mm256_insertf128_ps(_mm256_castps128_ps256(ROWS(2 * k)), ROWS(2 * k + 4), 1);
+	out[0] = (iv)_mm256_shuffle_ps(r[0], r[1], 0x88);
+	out[1] = (iv)_mm256_shuffle_ps(r[0], r[1], 0xdd);
+#else
+	out[0] = (iv)_mm_shuffle_ps(ROWS(0), ROWS(2), 0x88);
+	out[1] = (iv)_mm_shuffle_ps(ROWS(0), ROWS(2), 0xdd);
+#endif
+#undef ROWS
+}
+#endif
+#endif
+
+/* ------------------------------------------------------------------ for both */
+FN mv lanes_if(int yes) { return yes ? ALL_LANES : NO_LANE; }
+FN fv least(fv a, fv b) { return SEL(lt(a, b), a, b); }
+FN fv most(fv a, fv b) { return SEL(lt(b, a), a, b); }
+FN iv ileast(iv a, iv b) { return SEL(ilt(a, b), a, b); }
+FN iv imost(iv a, iv b) { return SEL(ilt(b, a), a, b); }
+
+/* Change the lanes m of a variable. */
+#define SET(m, place, value) ((place) = SEL(m, value, place))
+#define SET_TRUTH(m, place, value) ((place) = ((value) & (m)) | ((place) & NOT(m)))
+
+#endif
