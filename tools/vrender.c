@@ -81,7 +81,7 @@ int main(int argc, char **argv)
 		{ "--attenuation", OPT_CHOICE, &attenuation, 0, 0, "product|exponential", "of fat rays; exponential is biased", 0 },
 		{ "--spectral", OPT_FLAG, &spectral, 0, 0, NULL, "add a layer for every wavelength", 0 },
 		{ "--backend", OPT_CHOICE, &backend, 0, 0, "c|opencl", "what runs the kernels", 1 },
-		{ "--device", OPT_INT, &device, 0, 63, "I", "OpenCL device; default: the first GPU, or else the first", 1 },
+		{ "--device", OPT_INT, &device, 0, 63, "I", "OpenCL device; default: the first GPU, else the first", 1 },
 		{ "--list-devices", OPT_FLAG, &list, 0, 0, NULL, "list the OpenCL devices and exit", 1 },
 		{ "--threads", OPT_INT, &threads, 1, 1024, "N", "threads of the C backend", 1 },
 		{ "--verbose", OPT_FLAG, &verbose, 0, 0, NULL, "say which model is used, and why", 1 },
@@ -132,7 +132,7 @@ int main(int argc, char **argv)
 		     medium.n_particles, medium.n_classes, medium.n_waves, medium_depth(&medium));
 
 	struct out out = out_open(output, 1);    /* before the work, not after */
-	struct cl *cl = backend ? cl_start(&job, (int)device) : NULL;
+	struct cl *cl = backend ? cl_start(&job, (int)device, verbose) : NULL;
 	render(&job, cl, (uint32)from, (uint32)to, (int)threads);
 	if (cl)
 		cl_finish(cl);

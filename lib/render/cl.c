@@ -35,16 +35,16 @@ struct table {
 	int large;                 /* may be split over buffers */
 };
 
-/* How the device is used. CPUs run few work-items of many pixels, whose lanes are vectors of the kernel's own, for their drivers do
- * not make vectors of a path's loop; others run a pixel a work-item. */
+/* How the device is used. CPUs run few work-items of many pixels, whose lanes are vectors of the kernel's own, for their drivers
+ * do not make vectors of a path's loop; others run a pixel a work-item. */
 static void shape(struct cl *c, cl_device_id device)
 {
 	cl_uint units = 1, width = 1;
 	size_t most = 1;
 	c->many = cl_kind(device) == CL_DEVICE_TYPE_CPU;
-	cl_check(clGetDeviceInfo(device, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL), "asking for the device's size");
-	cl_check(clGetDeviceInfo(device, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT, sizeof width, &width, NULL), "asking for the device's size");
-	cl_check(clGetDeviceInfo(device, CL_DEVICE_MAX_WORK_GROUP_SIZE, sizeof most, &most, NULL), "asking for the device's size");
+	cl_ask(device, CL_DEVICE_MAX_COMPUTE_UNITS, &units, sizeof units);
+	cl_ask(device, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT, &width, sizeof width);
+	cl_ask(device, CL_DEVICE_MAX_WORK_GROUP_SIZE, &most, sizeof most);
 	c->units = units;
 	c->lanes = !c->many ? 1 : width >= 16 ? 16 : width >= 8 ? 8 : width >= 4 ? 4 : 1;
 	c->group = c->many ? 1 : most < GPU_GROUP ? most : GPU_GROUP;
@@ -56,7 +56,7 @@ static size_t buffer_limit(cl_device_id device)
 	const char *text = getenv("MOTES_CL_BUFFER");
 	cl_ulong most = 0;
 	double asked;
-	cl_check(clGetDeviceInfo(device, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof most, &most, NULL), "asking for the device's memory");
+	cl_ask(device, CL_DEVICE_MAX_MEM_ALLOC_SIZE, &most, sizeof most);
 	if (text && *text) {
 		const char *wrong = unit_bytes(text, &asked);
 		if (wrong)
@@ -71,21 +71,18 @@ static void tables(struct job *j, struct table *out)
 {
 	const struct tables *t = &j->tables;
 	const struct table table[N_TABLES] = {
-		{ &j->scene, sizeof j->scene / 4, 0 }, { t->extinction, j->n_extinction, 0 }, { t->disc, j->n_disc, 0 },
-		{ t->albedo, j->n_albedo, 0 }, { t->colour, j->n_colour, 0 }, { t->node, j->n_node, 0 }, { t->theta, j->n_theta, 0 },
+		{ &j->scene, sizeof j->scene / 4, 0 },
+		{ t->extinction, j->n_extinction, 0 }, { t->disc, j->n_disc, 0 }, { t->albedo, j->n_albedo, 0 },
+		{ t->colour, j->n_colour, 0 }, { t->node, j->n_node, 0 }, { t->theta, j->n_theta, 0 },
 		{ t->p, j->n_p, 1 }, { t->cdf, j->n_cdf, 1 }, { t->particle, j->n_particle, 1 }, { t->first, j->n_first, 1 },
-		{ t->voxel, j->n_voxel, 1 }, { t->count, j->n_count, 1 }, { t->map, j->n_map, 1 }, { t->map_cdf, j->n_map_cdf, 1 },
+		{ t->voxel, j->n_voxel, 1 }, { t->count, j->n_count, 1 }, { t->map, j->n_map, 1 },
+		{ t->map_cdf, j->n_map_cdf, 1 },
 	};
 	memcpy(out, table, sizeof table);
 }
 
-static void no_room(const char *what, double size, double limit)
-{
-	die("OpenCL", "out of memory on the device: %s %.4g MiB, and it has %.4g MiB", what, size / 0x1p20, limit / 0x1p20);
-}
-
-/* The kernels are built for the number of buffers of large tables, as a rule 1. Of several each but the last holds 2^shift elements:
- * the bits of an index say which buffer and where in it, and no particle (4 elements) is divided. Returns the shift. */
+/* The kernels are built for the number of buffers of large tables, as a rule 1. Of several each but the last holds 2^shift
+ * elements: the bits of an index say which buffer and where in it, and no particle (4 elements) is divided. Returns the shift. */
 static int divide(const struct table *table, size_t limit, int *chunks)
 {
 	size_t fixed = 0, large = 0;
@@ -99,9 +96,10 @@ static int divide(const struct table *table, size_t limit, int *chunks)
 		shift++;
 	*chunks = large <= limit / 4 ? 1 : CHUNKS_MAX;
 	if (fixed > limit / 4)
-		no_room("a table takes a buffer of", 4.0 * (double)fixed, (double)limit);
+		die("OpenCL", "out of memory on the device: a buffer of %zu bytes is needed, %zu is the most", 4 * fixed, limit);
 	if (*chunks > 1 && large > (size_t)CHUNKS_MAX << shift)
-		no_room("a table takes buffers of", 4.0 * (double)large, 4.0 * CHUNKS_MAX * (double)((size_t)1 << shift));
+		die("OpenCL", "out of memory on the device: a table of %zu bytes is more than %d buffers of %zu", 4 * large,
+		    CHUNKS_MAX, (size_t)4 << shift);
 	return shift;
 }
 
@@ -111,16 +109,16 @@ static char *options_for(const struct cl *c, cl_device_id device, int chunks, in
 	cl_device_fp_config rounding = 0;
 	char waves[32] = "", parts[32] = "";
 	const struct scene *s = &c->job->scene;
-	clGetDeviceInfo(device, CL_DEVICE_SINGLE_FP_CONFIG, sizeof rounding, &rounding, NULL);
+	cl_ask(device, CL_DEVICE_SINGLE_FP_CONFIG, &rounding, sizeof rounding);
 	if (!(rounding & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) || !(rounding & CL_FP_DENORM))
 		warn("OpenCL", "the device rounds otherwise than the C backend; the last bits of the image may differ");
 	if (s->n_waves == 1 || s->n_waves == 3)
 		snprintf(waves, sizeof waves, " -DWAVES=%d", s->n_waves);
 	if (chunks > 1)
 		snprintf(parts, sizeof parts, " -DCHUNK_SHIFT=%d", shift);
-	return xtext("-cl-std=CL1.2%s -DLANES=%d -DTRANSPORT=%d%s -DCHUNKS=%d%s",
-	             rounding & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT ? " -cl-fp32-correctly-rounded-divide-sqrt" : "", (int)c->lanes,
-	             s->transport, waves, chunks, parts);
+	const char *exact = rounding & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT ? " -cl-fp32-correctly-rounded-divide-sqrt" : "";
+	return xtext("-cl-std=CL1.2%s -DLANES=%d -DTRANSPORT=%d%s -DCHUNKS=%d%s", exact, (int)c->lanes, s->transport, waves, chunks,
+	             parts);
 }
 
 static void set(struct cl *c, cl_uint arg, size_t size, const void *value)
@@ -144,8 +142,8 @@ static void load_tables(struct cl *c, const struct table *table, int chunks, int
 	for (int i = 0; i < N_TABLES; i++) {
 		size_t n = table[i].n, part = chunks > 1 && table[i].large ? (size_t)1 << shift : n;
 		for (int k = 0; k < (table[i].large ? chunks : 1); k++) {
-			size_t from = (size_t)k * part < n ? (size_t)k * part : n, left = n - from;
-			cl_mem m = buffer(c, CL_MEM_READ_ONLY, (const char *)table[i].p + 4 * from, 4 * (left < part ? left : part));
+			size_t from = (size_t)k * part < n ? (size_t)k * part : n, own = n - from < part ? n - from : part;
+			cl_mem m = buffer(c, CL_MEM_READ_ONLY, (const char *)table[i].p + 4 * from, 4 * own);
 			set(c, c->n_buffers, sizeof m, &m);
 			c->table[c->n_buffers++] = m;
 		}
@@ -155,6 +153,9 @@ static void load_tables(struct cl *c, const struct table *table, int chunks, int
 static uint32 n_pixels(const struct job *j) { return (uint32)j->scene.width * (uint32)j->scene.height; }
 
 static size_t pixel_size(const struct job *j) { return (size_t)j->scene.film_sums * sizeof *j->film; }
+
+/* The job's part of the film that buffer i holds. */
+static void *film_part(const struct cl *c, uint32 i) { return (char *)c->job->film + i * (c->film_pixels * pixel_size(c->job)); }
 
 /* Pixels of the film's buffer i. */
 static uint32 pixels_of(const struct cl *c, uint32 i)
@@ -169,13 +170,12 @@ static void load_film(struct cl *c, size_t limit)
 	struct job *j = c->job;
 	size_t most = limit / pixel_size(j);
 	if (!most)
-		no_room("a pixel takes", (double)pixel_size(j), (double)limit);
+		die("OpenCL", "out of memory on the device: a pixel takes %zu bytes, a buffer %zu at most", pixel_size(j), limit);
 	c->film_pixels = most < n_pixels(j) ? (uint32)most : n_pixels(j);
 	c->n_films = (n_pixels(j) - 1) / c->film_pixels + 1;
 	c->film = xalloc(c->n_films, sizeof *c->film);
 	for (uint32 i = 0; i < c->n_films; i++)
-		c->film[i] = buffer(c, CL_MEM_READ_WRITE, (char *)j->film + i * (c->film_pixels * pixel_size(j)),
-		                    pixels_of(c, i) * pixel_size(j));
+		c->film[i] = buffer(c, CL_MEM_READ_WRITE, film_part(c, i), pixels_of(c, i) * pixel_size(j));
 	c->overflow = buffer(c, CL_MEM_READ_WRITE, &j->overflow, sizeof j->overflow);
 }
 
@@ -204,15 +204,16 @@ static void need_memory(struct job *j, const struct table *table, cl_device_id d
 	double needs = (double)n_pixels(j) * (double)pixel_size(j);
 	for (int i = 0; i < N_TABLES; i++)
 		needs += 4.0 * (double)table[i].n;
-	cl_check(clGetDeviceInfo(device, CL_DEVICE_GLOBAL_MEM_SIZE, sizeof has, &has, NULL), "asking for the device's memory");
+	cl_ask(device, CL_DEVICE_GLOBAL_MEM_SIZE, &has, sizeof has);
 	if (needs > (double)has)     /* a driver may take the machine's memory until it has none */
-		no_room("the scene and its film take", needs, (double)has);
+		die("OpenCL", "out of memory on the device: the scene and its film need %.1f GiB, and it has %.1f GiB",
+		    needs / 0x1p30, (double)has / 0x1p30);
 }
 
-struct cl *cl_start(struct job *j, int number)
+struct cl *cl_start(struct job *j, int number, int verbose)
 {
 	struct cl *c = xalloc(1, sizeof *c);
-	cl_device_id device = cl_device(number);
+	cl_device_id device = cl_device(number, verbose);
 	struct table table[N_TABLES];
 	size_t limit = buffer_limit(device), most = 1;
 	int chunks, cached;
@@ -254,8 +255,8 @@ void cl_finish(struct cl *c)
 {
 	struct job *j = c->job;
 	for (uint32 i = 0; i < c->n_films; i++) {
-		cl_check(clEnqueueReadBuffer(c->queue, c->film[i], CL_TRUE, 0, pixels_of(c, i) * pixel_size(j),
-		                             (char *)j->film + i * (c->film_pixels * pixel_size(j)), 0, NULL, NULL), "reading the film");
+		cl_check(clEnqueueReadBuffer(c->queue, c->film[i], CL_TRUE, 0, pixels_of(c, i) * pixel_size(j), film_part(c, i), 0,
+		                             NULL, NULL), "reading the film");
 		clReleaseMemObject(c->film[i]);
 	}
 	cl_check(clEnqueueReadBuffer(c->queue, c->overflow, CL_TRUE, 0, sizeof j->overflow, &j->overflow, 0, NULL, NULL),

@@ -13,11 +13,17 @@
 
 void cl_check(cl_int error, const char *what)
 {
-	if (error == CL_MEM_OBJECT_ALLOCATION_FAILURE || error == CL_OUT_OF_RESOURCES || error == CL_OUT_OF_HOST_MEMORY
-	    || error == CL_INVALID_BUFFER_SIZE)
+	if (error == CL_MEM_OBJECT_ALLOCATION_FAILURE || error == CL_OUT_OF_HOST_MEMORY || error == CL_INVALID_BUFFER_SIZE)
 		die("OpenCL", "%s: out of memory on the device", what);
+	if (error == CL_OUT_OF_RESOURCES)     /* memory for many a driver, too, or whatever else ends a launch */
+		die("OpenCL", "%s: out of memory or other resources on the device", what);
 	if (error)
 		die("OpenCL", "%s failed (error %d)", what, error);
+}
+
+void cl_ask(cl_device_id device, cl_device_info what, void *value, size_t size)
+{
+	cl_check(clGetDeviceInfo(device, what, size, value, NULL), "asking for a device's properties");
 }
 
 /* PoCL aborts the process where it cannot read the machine's memory from /sys, as in a plain chroot: tell it there. */
@@ -54,7 +60,7 @@ cl_device_type cl_kind(cl_device_id device)
 {
 	static const cl_device_type kind[] = { CL_DEVICE_TYPE_GPU, CL_DEVICE_TYPE_ACCELERATOR };
 	cl_device_type all = 0;
-	cl_check(clGetDeviceInfo(device, CL_DEVICE_TYPE, sizeof all, &all, NULL), "asking for a device's kind");
+	cl_ask(device, CL_DEVICE_TYPE, &all, sizeof all);
 	for (size_t i = 0; i < sizeof kind / sizeof *kind; i++)
 		if (all & kind[i])
 			return kind[i];
@@ -88,11 +94,26 @@ char *cl_platform_text(cl_device_id device, cl_platform_info what)
 {
 	size_t size = 0;
 	cl_platform_id platform;
-	cl_check(clGetDeviceInfo(device, CL_DEVICE_PLATFORM, sizeof platform, &platform, NULL), "asking for a device's platform");
+	cl_ask(device, CL_DEVICE_PLATFORM, &platform, sizeof platform);
 	cl_check(clGetPlatformInfo(platform, what, 0, NULL, &size), "asking for a platform's name");
 	char *text = xalloc(size + 1, 1);
 	cl_check(clGetPlatformInfo(platform, what, size, text, NULL), "asking for a platform's name");
 	return tidy(text);
+}
+
+/* As the list has it, less its number. */
+static char *line_of(cl_device_id device, const char *separator)
+{
+	char *name = cl_device_text(device, CL_DEVICE_NAME), *platform = cl_platform_text(device, CL_PLATFORM_NAME);
+	cl_device_type kind = cl_kind(device);
+	cl_ulong memory = 0;
+	cl_ask(device, CL_DEVICE_GLOBAL_MEM_SIZE, &memory, sizeof memory);
+	const char *word = kind == CL_DEVICE_TYPE_GPU ? "GPU" : kind == CL_DEVICE_TYPE_CPU ? "CPU" : "accelerator";
+	char *line = xtext("%s%s%s%s%s%s%.1f GiB", name, separator, word, separator, platform, separator,
+	                   (double)memory / 0x1p30);
+	free(name);
+	free(platform);
+	return line;
 }
 
 void cl_list(FILE *out)
@@ -100,18 +121,13 @@ void cl_list(FILE *out)
 	cl_device_id device[DEVICES_MAX];
 	cl_uint n = devices(device);
 	for (cl_uint i = 0; i < n; i++) {
-		char *name = cl_device_text(device[i], CL_DEVICE_NAME), *platform = cl_platform_text(device[i], CL_PLATFORM_NAME);
-		cl_device_type kind = cl_kind(device[i]);
-		cl_ulong memory = 0;
-		cl_check(clGetDeviceInfo(device[i], CL_DEVICE_GLOBAL_MEM_SIZE, sizeof memory, &memory, NULL), "asking for a device's memory");
-		fprintf(out, "%u\t%s\t%s\t%s\t%.1f GiB\n", i, name, kind == CL_DEVICE_TYPE_GPU ? "GPU" : kind == CL_DEVICE_TYPE_CPU ? "CPU"
-		        : "accelerator", platform, (double)memory / (1 << 30));
-		free(name);
-		free(platform);
+		char *line = line_of(device[i], "\t");
+		fprintf(out, "%u\t%s\n", i, line);
+		free(line);
 	}
 }
 
-cl_device_id cl_device(int number)
+cl_device_id cl_device(int number, int verbose)
 {
 	cl_device_id all[DEVICES_MAX];
 	cl_uint n = devices(all);
@@ -120,5 +136,11 @@ cl_device_id cl_device(int number)
 	for (cl_uint i = 0; number < 0 && i < n; i++)
 		if (cl_kind(all[i]) == CL_DEVICE_TYPE_GPU)
 			number = (int)i;
-	return all[number < 0 ? 0 : number];
+	number = number < 0 ? 0 : number;
+	if (verbose) {
+		char *line = line_of(all[number], ", ");
+		warn("OpenCL", "device %d: %s", number, line);
+		free(line);
+	}
+	return all[number];
 }

@@ -1,13 +1,13 @@
 /* The kernels built for a device, and the cache that saves building them again.
  *
- * A file of the cache is "motes OpenCL program", the length of the key and of the binary, the key, the binary, a CRC-32 of all
- * before it. The key is all that the binary depends on, the source included, and is compared in full: the file's name is but a hash
- * of it. What is damaged, cut short or of another key, device, driver or user is as good as not there.
+ * A file of the cache is a head, a key, a program's binary, and the CRC-32 of all before it. The key is all that the binary
+ * depends on, the source included, and is compared in full; the file's name is but a hash of it. What is damaged, cut short,
+ * another user's or of another key is as good as not there.
  *
  * PoCL 3.1 compiles a kernel at its first launch, for the size of the work-groups and for few or many of them; its binary is the
- * folder of its own cache with all that was compiled so far. Taken right after the build it holds the compiler's intermediate code
- * and one function for any size, which a launch does not use: starting from it takes as long as from source, less the front end.
- * Taken after a launch it holds the machine code that the next launch needs. */
+ * folder of its own cache, with all that was compiled so far. Taken right after the build, it holds intermediate code and a
+ * function for any size, which a launch of a known size does not use: that is compiled again, all but as slowly as from source.
+ * Taken after a launch, it holds the machine code of that, and the next start is immediate. */
 #include "base/die.h"
 #include "base/out.h"
 #include "render/kernels.h"
@@ -35,7 +35,8 @@ static char *key_of(cl_device_id device, const char *options)
 	char *name = cl_device_text(device, CL_DEVICE_NAME), *vendor = cl_device_text(device, CL_DEVICE_VENDOR);
 	char *driver = cl_device_text(device, CL_DRIVER_VERSION), *version = cl_device_text(device, CL_DEVICE_VERSION);
 	char *platform = cl_platform_text(device, CL_PLATFORM_NAME), *release = cl_platform_text(device, CL_PLATFORM_VERSION);
-	char *key = xtext("%s\n%s\n%s\n%s\n%s\n%s\n%s\n%s", platform, release, name, vendor, driver, version, options, kernels_source);
+	char *key = xtext("%s\n%s\n%s\n%s\n%s\n%s\n%s\n%s", platform, release, vendor, name, version, driver, options,
+	                  kernels_source);
 	free(name);
 	free(vendor);
 	free(driver);
@@ -112,11 +113,25 @@ static const unsigned char *binary_in(const unsigned char *all, size_t size, con
 	memcpy(&head, all, sizeof head);
 	memcpy(&crc, all + size - sizeof crc, sizeof crc);
 	size -= sizeof head + sizeof crc;
-	if (memcmp(head.magic, magic, sizeof magic) || head.key != strlen(key) || head.key > size || head.binary != size - head.key
-	    || memcmp(all + sizeof head, key, head.key) || crc32_z(0, all, sizeof head + size) != crc)
+	if (memcmp(head.magic, magic, sizeof magic) || head.key != strlen(key) || head.key > size
+	    || head.binary != size - head.key || memcmp(all + sizeof head, key, head.key) || crc32_z(0, all, sizeof head + size) != crc)
 		return NULL;
 	*length = head.binary;
 	return all + sizeof head + head.key;
+}
+
+/* The compilers' own chatter does not belong on standard error: PoCL's writes there how many errors it found. */
+static cl_int build_quietly(cl_program program, cl_device_id device, const char *options)
+{
+	int aside = dup(STDERR_FILENO), nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
+	if (aside >= 0 && nothing >= 0)
+		dup2(nothing, STDERR_FILENO);
+	cl_int error = clBuildProgram(program, 1, &device, options, NULL, NULL);
+	if (aside >= 0 && nothing >= 0)
+		dup2(aside, STDERR_FILENO);
+	close(aside);
+	close(nothing);
+	return error;
 }
 
 static cl_program from_cache(cl_context context, cl_device_id device, const char *options)
@@ -129,7 +144,7 @@ static cl_program from_cache(cl_context context, cl_device_id device, const char
 	cl_int status, error;
 	if (binary) {
 		program = clCreateProgramWithBinary(context, 1, &device, &length, &binary, &status, &error);
-		if (program && (error || status || clBuildProgram(program, 1, &device, options, NULL, NULL))) {
+		if (program && (error || status || build_quietly(program, device, options))) {
 			clReleaseProgram(program);
 			program = NULL;
 		}
@@ -161,7 +176,7 @@ static uLong put(struct out *out, uLong crc, const void *p, size_t size)
 void cl_keep(cl_program program, cl_device_id device, const char *options)
 {
 	size_t size;
-	unsigned char *binary = cache_open() ? binary_of(program, &size) : NULL;    /* asking PoCL for it takes seconds */
+	unsigned char *binary = cache_open() ? binary_of(program, &size) : NULL;     /* which takes PoCL seconds */
 	if (!binary)
 		return;
 	char *key = key_of(device, options), *path = cache_path(key);
@@ -176,20 +191,6 @@ void cl_keep(cl_program program, cl_device_id device, const char *options)
 	free(path);
 	free(key);
 	free(binary);
-}
-
-/* The compilers' own chatter does not belong on standard error: PoCL's writes there how many errors it found. */
-static cl_int build_quietly(cl_program program, cl_device_id device, const char *options)
-{
-	int aside = dup(STDERR_FILENO), nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
-	if (aside >= 0 && nothing >= 0)
-		dup2(nothing, STDERR_FILENO);
-	cl_int error = clBuildProgram(program, 1, &device, options, NULL, NULL);
-	if (aside >= 0 && nothing >= 0)
-		dup2(aside, STDERR_FILENO);
-	close(aside);
-	close(nothing);
-	return error;
 }
 
 /* The log's first line about an error, or its first line. */

@@ -7,8 +7,12 @@
 /* cl_check - dies unless error is 0, in a line that says what failed. */
 void cl_check(cl_int error, const char *what);
 
-/* cl_device - a device by its number in the list; -1: the first GPU, or without one the first device. Dies where there is none. */
-cl_device_id cl_device(int number);
+/* cl_ask - one of a device's properties of known size. */
+void cl_ask(cl_device_id device, cl_device_info what, void *value, size_t size);
+
+/* cl_device - a device by its number in the list; -1: the first GPU, or without one the first device. Dies where there is none.
+ * verbose: warn which it is. */
+cl_device_id cl_device(int number, int verbose);
 
 /* Which of the three kinds a device is: a bit of CL_DEVICE_TYPE_*. */
 cl_device_type cl_kind(cl_device_id device);
