@@ -9,8 +9,8 @@
 #define CHUNKS 1
 #endif
 
-/* FLOATS, UINTS - the type of a table. floats_at, uints_at - where element i is; up to the next multiple of 4 the elements that follow
- * it stand beside it. */
+/* FLOATS, UINTS - the type of a table. floats_at, uints_at - where element i is; those that follow stand beside it as far as the
+ * next multiple of 4. */
 #if CHUNKS == 1
 #define FLOATS GLOBAL const float *
 #define UINTS GLOBAL const uint32 *
