@@ -123,7 +123,7 @@ static const unsigned char *binary_in(const unsigned char *all, size_t size, con
 /* The compilers' own chatter does not belong on standard error: PoCL's writes there how many errors it found. */
 static cl_int build_quietly(cl_program program, cl_device_id device, const char *options)
 {
-	int aside = dup(STDERR_FILENO), nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
+	int aside = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3), nothing = open("/dev/null", O_WRONLY | O_CLOEXEC);
 	if (aside >= 0 && nothing >= 0)
 		dup2(nothing, STDERR_FILENO);
 	cl_int error = clBuildProgram(program, 1, &device, options, NULL, NULL);
