@@ -11,6 +11,7 @@ data=$top/tests/data
 tmp=$(mktemp -d)
 trap 'rm -rf "$tmp"' EXIT
 export PATH LC_ALL=C OMP_NUM_THREADS=2
+export XDG_CACHE_HOME=/dev/null    # the user's caches are not a test's
 # For the sanitizer: its own exit status 1 would read as "compared and different", and a tool may leave its memory to its end.
 export ASAN_OPTIONS="${ASAN_OPTIONS:-exitcode=99:detect_leaks=0}"
 

@@ -14,7 +14,9 @@
 #include <unistd.h>
 
 #define SAMPLES 64             /* unless asked for */
-#define BATCH_SECONDS 0.5      /* between two looks at the clock */
+#define BATCH_SECONDS 0.2      /* between two looks at the clock: a display's watchdog and Ctrl-C wait no longer for a device */
+#define FIRST_PATHS 16384      /* of the first batch */
+#define FIRST_PARTS 16         /* of the film, at least, while nothing is known of some of it */
 
 static double now(void)
 {
@@ -23,38 +25,52 @@ static double now(void)
 	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static void progress(uint32 done, uint32 all, double seconds)
+static void progress(double share, double seconds)
 {
-	fprintf(stderr, "\rvrender: %3.0f %%, %.0f s left ", 100.0 * done / all, seconds * (all - done) / done);
-	if (done == all)
+	fprintf(stderr, "\rvrender: %3.0f %%, %.0f s left ", 100 * share, seconds * (1 - share) / share);
+	if (share >= 1)
 		fprintf(stderr, "\r%40s\r", "");
 }
 
-/* Samples [from, to), in batches that grow to the time between two looks at the clock. */
+/* Paths of the next batch, after one of so many. The parts of a film may differ a hundredfold: unless it was the whole of it, the
+ * slowest so far, forgotten but slowly, says what a batch may take. */
+static double next_batch(double paths, double seconds, int whole, double *slowest)
+{
+	double speed = paths / fmax(seconds, 1e-9);
+	*slowest = whole ? speed : fmin(speed, 1.02 * *slowest);
+	return fmin(2 * paths, BATCH_SECONDS * *slowest);
+}
+
+/* Samples [from, to), in batches of some samples of some pixels; the C backend, which a signal ends at any time, takes all pixels. */
 static void render(struct job *j, struct cl *cl, uint32 from, uint32 to, int threads)
 {
-	uint32 samples = to - from;
+	const uint32 pixels = (uint32)(j->scene.width * j->scene.height);
 	int visible = isatty(STDERR_FILENO);
-	double start = now();
-	for (uint32 done = 0, batch = 1; done < samples;) {
-		double before = now();
-		batch = batch < samples - done ? batch : samples - done;
-		if (cl)
-			cl_render(cl, from + done, batch);
-		else
-			render_c(j, from + done, batch, threads);
-		done += batch;
-		double took = now() - before;
-		batch = took < BATCH_SECONDS ? batch * 2 : batch > 1 && took > 2 * BATCH_SECONDS ? batch / 2 : batch;
-		if (visible)
-			progress(done, samples, now() - start);
+	double start = now(), shown = start, slowest = INFINITY, batch = FIRST_PATHS;
+	for (uint32 sample = from, n; sample < to; sample += n) {
+		n = sample == from ? 1 : (uint32)fmin(fmax(1, batch / pixels), to - sample);
+		for (uint32 pixel = 0, part; pixel < pixels; pixel += part) {
+			double before = now(), most = sample == from ? fmin(batch, pixels / FIRST_PARTS) : batch / n;
+			part = cl ? (uint32)fmin(fmax(1, most), pixels - pixel) : pixels;
+			if (cl)
+				cl_render(cl, pixel, part, sample, n);
+			else
+				render_c(j, sample, n, threads);
+			double after = now();
+			batch = next_batch((double)part * n, after - before, part == pixels, &slowest);
+			int last = pixel + part == pixels && sample + n == to;
+			if (visible && (last || after - shown >= BATCH_SECONDS)) {
+				progress((sample - from + (double)n * (pixel + part) / pixels) / (to - from), after - start);
+				shown = after;
+			}
+		}
 	}
 }
 
 int main(int argc, char **argv)
 {
 	const char *output = NULL, *part = NULL;
-	long long samples = 0, from = 0, to = 0, seed = 1, threads = sysconf(_SC_NPROCESSORS_ONLN), device = 0;
+	long long samples = 0, from = 0, to = 0, seed = 1, threads = sysconf(_SC_NPROCESSORS_ONLN), device = -1;
 	int transport = -1, attenuation = 0, backend = 0, list = 0, verbose = 0, spectral = 0;
 	const struct opt opts[] = {
 		{ "-o", OPT_FILE, &output, 0, 0, "FILE.exr", "the image", 1 },
@@ -65,7 +81,7 @@ int main(int argc, char **argv)
 		{ "--attenuation", OPT_CHOICE, &attenuation, 0, 0, "product|exponential", "of fat rays; exponential is biased", 0 },
 		{ "--spectral", OPT_FLAG, &spectral, 0, 0, NULL, "add a layer for every wavelength", 0 },
 		{ "--backend", OPT_CHOICE, &backend, 0, 0, "c|opencl", "what runs the kernels", 1 },
-		{ "--device", OPT_INT, &device, 0, 63, "I", "OpenCL device", 1 },
+		{ "--device", OPT_INT, &device, 0, 63, "I", "OpenCL device; default: the first GPU, else the first", 1 },
 		{ "--list-devices", OPT_FLAG, &list, 0, 0, NULL, "list the OpenCL devices and exit", 1 },
 		{ "--threads", OPT_INT, &threads, 1, 1024, "N", "threads of the C backend", 1 },
 		{ "--verbose", OPT_FLAG, &verbose, 0, 0, NULL, "say which model is used, and why", 1 },
@@ -83,6 +99,8 @@ int main(int argc, char **argv)
 		die(args.operand[1], "one scene at most");
 	if (!output)
 		die("-o", "is needed");
+	if (device >= 0 && !backend)
+		die("--device", "goes with --backend opencl");
 	const char *bad = part ? image_range(part, &from, &to) : NULL;
 	if (bad)
 		die("--sample-range", "'%s' %s", part, bad);
@@ -114,7 +132,7 @@ int main(int argc, char **argv)
 		     medium.n_particles, medium.n_classes, medium.n_waves, medium_depth(&medium));
 
 	struct out out = out_open(output, 1);    /* before the work, not after */
-	struct cl *cl = backend ? cl_start(&job, (int)device) : NULL;
+	struct cl *cl = backend ? cl_start(&job, (int)device, verbose) : NULL;
 	render(&job, cl, (uint32)from, (uint32)to, (int)threads);
 	if (cl)
 		cl_finish(cl);

@@ -73,6 +73,30 @@ static int nameable(int fd)
 	return there;
 }
 
+/* Where a regular file is to appear: a nameless one, or else one with a name of its own. f is NULL where neither can be. */
+struct out out_beside(const char *path)
+{
+	struct out out = { .path = path };
+	char *folder = folder_of(path);
+	mode_t mask = umask(0);
+	umask(mask);
+	int fd = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+	if (fd >= 0 && !nameable(fd)) {
+		close(fd);
+		fd = -1;
+	}
+	out.aside = xtext("%s.tmp-%ld", path, (long)getpid());
+	out.nameless = fd >= 0;
+	if (fd < 0) {   /* a file system without nameless files, or no /proc */
+		fd = open(out.aside, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666 & ~mask);
+		if (fd >= 0)
+			keep_swept(out.aside);
+	}
+	out.f = fd < 0 ? NULL : fdopen(fd, "wb");
+	free(folder);
+	return out;
+}
+
 struct out out_open(const char *path, int binary)
 {
 	struct out out = { .path = path && strcmp(path, "-") ? path : "-" };
@@ -83,52 +107,57 @@ struct out out_open(const char *path, int binary)
 		out.f = stdout;
 		return out;
 	}
-	if (!stat(out.path, &st) && !S_ISREG(st.st_mode)) {
+	if (!stat(out.path, &st) && !S_ISREG(st.st_mode))
 		out.f = fopen(out.path, "wb");
-		if (!out.f)
-			die(out.path, "cannot open:");
-		return out;
-	}
-	char *folder = folder_of(out.path);
-	mode_t mask = umask(0);
-	umask(mask);
-	int fd = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
-	if (fd >= 0 && !nameable(fd)) {
-		close(fd);
-		fd = -1;
-	}
-	out.aside = xtext("%s.tmp-%ld", out.path, (long)getpid());
-	out.nameless = fd >= 0;
-	if (fd < 0) {   /* a file system without nameless files, or no /proc */
-		fd = open(out.aside, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666 & ~mask);
-		if (fd >= 0)
-			keep_swept(out.aside);
-	}
-	out.f = fd < 0 ? NULL : fdopen(fd, "wb");
+	else
+		out = out_beside(out.path);
 	if (!out.f)
-		die(out.path, "cannot create:");
-	free(folder);
+		die(out.path, out.aside ? "cannot create:" : "cannot open:");
 	return out;
+}
+
+/* Give a nameless file the name that it has aside; -1 on failure. */
+static int name_aside(struct out *out)
+{
+	char *self = self_of(fileno(out->f));
+	unlink(out->aside);     /* of a dead process that had our number */
+	keep_swept(out->aside);
+	int bad = linkat(AT_FDCWD, self, AT_FDCWD, out->aside, AT_SYMLINK_FOLLOW);
+	free(self);
+	return bad;
+}
+
+const char *out_finish(struct out *out)
+{
+	const char *wrong = NULL;
+	int error = errno;
+	if (!out->f)
+		wrong = "cannot create:";
+	else if (fflush(out->f) || ferror(out->f))
+		wrong = "cannot write:";
+	else if (out->nameless && name_aside(out))
+		wrong = "cannot name the finished file:";
+	error = wrong && out->f ? errno : error;
+	if (out->f && fclose(out->f) && errno != EBADF && !wrong) {
+		wrong = "cannot write:";
+		error = errno;
+	}
+	if (!wrong && out->aside && rename(out->aside, out->path)) {
+		wrong = "cannot rename:";
+		error = errno;
+	}
+	if (wrong && out->aside)
+		unlink(out->aside);
+	swept(out->aside);
+	free(out->aside);
+	out->aside = NULL;
+	errno = error;
+	return wrong;
 }
 
 void out_close(struct out *out)
 {
-	int bad = fflush(out->f) || ferror(out->f);
-	if (bad)
-		die(!strcmp(out->path, "-") ? "standard output" : out->path, "cannot write:");
-	if (out->nameless) {
-		char *self = self_of(fileno(out->f));
-		unlink(out->aside);     /* of a dead process that had our number */
-		keep_swept(out->aside);
-		if (linkat(AT_FDCWD, self, AT_FDCWD, out->aside, AT_SYMLINK_FOLLOW))
-			die(out->path, "cannot name the finished file:");
-		free(self);
-	}
-	if (fclose(out->f) && errno != EBADF)
-		die(!strcmp(out->path, "-") ? "standard output" : out->path, "cannot write:");
-	if (out->aside && rename(out->aside, out->path))
-		die(out->path, "cannot rename:");
-	swept(out->aside);
-	free(out->aside);
-	out->aside = NULL;
+	const char *wrong = out_finish(out);
+	if (wrong)
+		die(!strcmp(out->path, "-") ? "standard output" : out->path, "%s", wrong);
 }

@@ -20,4 +20,9 @@ struct out out_open(const char *path, int binary);
 /* out_close - flush, check, and give the file its name; dies on failure. */
 void out_close(struct out *out);
 
+/* For a file that may as well not be, such as a cache's: f is NULL where it cannot be created, and out_finish, to be called in
+ * any case, returns what went wrong (errno has why) or NULL. Nothing remains of a failure. */
+struct out out_beside(const char *path);
+const char *out_finish(struct out *out);
+
 #endif

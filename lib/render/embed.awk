@@ -2,8 +2,7 @@
 BEGIN { print "#include \"render/kernels.h\"\n\nconst char kernels_source[] =" }
 /^#include/ { next }
 {
-	gsub(/\\/, "\\\\")
-	gsub(/"/, "\\\"")
+	gsub(/["\\]/, "\\\\&")
 	print "\t\"" $0 "\\n\""
 }
 END { print "\t;" }

@@ -42,9 +42,9 @@ void render_c(struct job *j, uint32 first, uint32 n, int threads);
 
 /* The same by OpenCL, whose device holds the tables and the film meanwhile. Each dies with one line on any failure. */
 struct cl;
-void cl_list(FILE *out);    /* a line a device: number, name */
-struct cl *cl_start(struct job *j, int device);
-void cl_render(struct cl *c, uint32 first, uint32 n);
+void cl_list(FILE *out);    /* a line a device: number, name, kind, platform, memory */
+struct cl *cl_start(struct job *j, int device, int verbose);      /* -1: the first GPU, or else the first; verbose says which */
+void cl_render(struct cl *c, uint32 pixel, uint32 pixels, uint32 first, uint32 n);    /* of the pixels [pixel, pixel + pixels) */
 void cl_finish(struct cl *c);      /* brings the film back */
 
 #endif

@@ -9,6 +9,8 @@
 #ifndef KERN_LANE_H
 #define KERN_LANE_H
 
+#include "render/kern/chunk.h"
+
 #ifndef LANES
 #define LANES 1
 #endif
@@ -19,14 +21,6 @@
 
 #ifdef __OPENCL_VERSION__
 /* ------------------------------------------------------------------ OpenCL */
-#pragma OPENCL FP_CONTRACT OFF
-#ifndef FN
-#define FN static inline __attribute__((always_inline))
-#endif
-#define GLOBAL __global
-typedef long int64;
-typedef uint uint32;
-typedef ulong uint64;
 #if LANES == 1
 typedef float fv;
 typedef int iv, mv;
@@ -63,19 +57,19 @@ FN mv le(fv a, fv b) { return TRUTH(a <= b); }
 FN mv ilt(iv a, iv b) { return TRUTH(a < b); }
 FN mv ieq(iv a, iv b) { return TRUTH(a == b); }
 #if LANES == 16
-#define FROM_TABLE(p, i) (p[i.s0], p[i.s1], p[i.s2], p[i.s3], p[i.s4], p[i.s5], p[i.s6], p[i.s7], \
-                          p[i.s8], p[i.s9], p[i.sa], p[i.sb], p[i.sc], p[i.sd], p[i.se], p[i.sf])
+#define EACH_AT(at, p, i) (at(p, i.s0), at(p, i.s1), at(p, i.s2), at(p, i.s3), at(p, i.s4), at(p, i.s5), at(p, i.s6), at(p, i.s7), \
+                           at(p, i.s8), at(p, i.s9), at(p, i.sa), at(p, i.sb), at(p, i.sc), at(p, i.sd), at(p, i.se), at(p, i.sf))
 FN int sum4(int4 a) { return a.x + a.y + a.z + a.w; }
 FN int count(mv m) { return -sum4(m.lo.lo + m.lo.hi + m.hi.lo + m.hi.hi); }
 #elif LANES == 8
-#define FROM_TABLE(p, i) (p[i.s0], p[i.s1], p[i.s2], p[i.s3], p[i.s4], p[i.s5], p[i.s6], p[i.s7])
+#define EACH_AT(at, p, i) (at(p, i.s0), at(p, i.s1), at(p, i.s2), at(p, i.s3), at(p, i.s4), at(p, i.s5), at(p, i.s6), at(p, i.s7))
 FN int sum4(int4 a) { return a.x + a.y + a.z + a.w; }
 FN int count(mv m) { return -sum4(m.lo + m.hi); }
 #elif LANES == 4
-#define FROM_TABLE(p, i) (p[i.x], p[i.y], p[i.z], p[i.w])
+#define EACH_AT(at, p, i) (at(p, i.x), at(p, i.y), at(p, i.z), at(p, i.w))
 FN int count(mv m) { return -(m.x + m.y + m.z + m.w); }
 #else
-#define FROM_TABLE(p, i) (p[i])
+#define EACH_AT(at, p, i) (at(p, i))
 FN int count(mv m) { return -m; }
 #endif
 typedef float8 f8;
@@ -88,28 +82,21 @@ FN void l8_store(GLOBAL int64 *p, l8 x) { vstore8(x, 0, p); }
 #define F8(...) ((f8)(__VA_ARGS__))
 #define L8(...) ((l8)(__VA_ARGS__))
 FN uint64 high_product(uint64 a, uint64 b) { return mul_hi(a, b); }
-FN fv gather(mv m, GLOBAL const float *p, iv i) { i &= m; return (fv)FROM_TABLE(p, i); }
-FN iv igather(mv m, GLOBAL const int *p, iv i) { i &= m; return (iv)FROM_TABLE(p, i); }
-FN void gather4(mv m, GLOBAL const float *p, iv i, fv *out)
+FN fv gather(mv m, FLOATS p, iv i) { i &= m; return (fv)EACH_AT(float_at, p, i); }
+FN iv igather(mv m, INTS p, iv i) { i &= m; return (iv)EACH_AT(int_at, p, i); }
+FN void gather4(mv m, FLOATS p, iv i, fv *out)
 {
 	for (int k = 0; k < 4; k++)
-		out[k] = gather(m, p + k, i);
+		out[k] = gather(m, p, i + k);
 }
-FN void igather2(mv m, GLOBAL const int *p, iv i, iv *out)
+FN void igather2(mv m, INTS p, iv i, iv *out)
 {
 	out[0] = igather(m, p, i);
-	out[1] = igather(m, p + 1, i);
+	out[1] = igather(m, p, i + 1);
 }
 
 #else
 /* ------------------------------------------------------------------ C */
-#include <stdint.h>
-#include <string.h>
-#define FN static inline __attribute__((always_inline, unused))
-#define GLOBAL
-typedef int64_t int64;
-typedef uint32_t uint32;
-typedef uint64_t uint64;
 typedef float f8 __attribute__((vector_size(32)));
 typedef int64 l8 __attribute__((vector_size(64)));
 FN l8 l8_of(f8 x) { return __builtin_convertvector(x, l8); }

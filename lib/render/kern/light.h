@@ -66,17 +66,18 @@ FN fv texel_angle(const struct scene *s, iv row)
 	return sn * s->map_angle;
 }
 
-/* Share of an interval of a CDF in units of 2^-31. */
-FN fv cdf_share(GLOBAL const int *cdf, mv m, iv i)
+/* Width of an interval of a CDF in units of 2^-31. */
+FN fv cdf_width(INTS cdf, mv m, iv i)
 {
-	return to_float(signed_of(unsigned_of(igather(m, cdf + 1, i)) - unsigned_of(igather(m, cdf, i)))) * 0x1p-31f;
+	return to_float(signed_of(unsigned_of(igather(m, cdf, i + 1)) - unsigned_of(igather(m, cdf, i))));
 }
 
 /* Density of drawing a direction in a texel, sr^-1. */
 FN fv map_density(const struct scene *s, const struct tables *t, mv m, iv row, iv column)
 {
-	GLOBAL const int *columns = t->map_cdf + s->map_height + 1;
-	return cdf_share(t->map_cdf, m, row) * cdf_share(columns, m, row * (s->map_width + 1) + column) * s->pick / texel_angle(s, row);
+	iv columns = s->map_height + 1 + row * (s->map_width + 1);
+	fv share = cdf_width(t->map_cdf, m, row) * 0x1p-31f * (cdf_width(t->map_cdf, m, columns + column) * 0x1p-31f);
+	return share * s->pick / texel_angle(s, row);
 }
 
 /* The texel in a direction: top row +y, centre column -z, columns turn towards +x. */
@@ -95,7 +96,7 @@ FN void map_value(const struct scene *s, const struct tables *t, mv m, iv row, i
 
 /* The interval of cdf[n + 1], which begins at index from, in units of 2^-31, that u of 32 bits falls into, and the place in it, in
  * (0, 1]. Compared less 1, so that 2^31 is a signed number. */
-FN iv cdf_draw(GLOBAL const int *cdf, mv m, iv from, int n, uv u, fv *place)
+FN iv cdf_draw(INTS cdf, mv m, iv from, int n, uv u, fv *place)
 {
 	iv low = IV(0), high = IV(n), target = signed_of(u >> 1);
 	for (mv on = m & ilt(low + 1, high); any(on); on &= ilt(low + 1, high)) {
@@ -105,7 +106,7 @@ FN iv cdf_draw(GLOBAL const int *cdf, mv m, iv from, int n, uv u, fv *place)
 		SET(on & NOT(below), high, middle);
 	}
 	iv begin = igather(m, cdf, from + low);
-	fv width = to_float(signed_of(unsigned_of(igather(m, cdf + 1, from + low)) - unsigned_of(begin)));
+	fv width = cdf_width(cdf, m, from + low);
 	*place = least(FV(1.f), (to_float(signed_of(unsigned_of(target) - unsigned_of(begin))) + 0.5f) / most(width, FV(1.f)));
 	return low;
 }
@@ -115,7 +116,7 @@ FN struct vec map_draw(const struct scene *s, const struct tables *t, mv m, uv u
 {
 	fv down, across, sn, cs, step = FV(PI / (float)s->map_height);
 	*row = cdf_draw(t->map_cdf, m, IV(0), s->map_height, u, &down);
-	*column = cdf_draw(t->map_cdf + s->map_height + 1, m, *row * (s->map_width + 1), s->map_width, v, &across);
+	*column = cdf_draw(t->map_cdf, m, s->map_height + 1 + *row * (s->map_width + 1), s->map_width, v, &across);
 	/* sin^2(theta / 2), linear in solid angle, from the nearer pole, where it resolves the smallest texel */
 	mv north = ilt(*row, IV(s->map_height / 2));
 	fv from = to_float(SEL(north, *row, s->map_height - 1 - *row));

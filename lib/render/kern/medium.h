@@ -50,7 +50,7 @@ FN void march_begin(const struct scene *s, const struct tables *t, struct march 
 			fv own = of_hero(s, t->extinction, m, w, hero);
 			if (!flight)
 				EACH_WAVE(j)
-					own = least(own, of_wave(s, t->extinction, m, w, j));
+					own = least(own, of_wave(s, t->extinction, 0, m, w, j));
 			target = SEL(lt(FV(0.f), own), target / own, FV(FAR));
 		}
 		passage_begin(s, &g->passage, m, r, t_end, flight, target);
@@ -82,7 +82,7 @@ FN void shadow_end(const struct scene *s, const struct tables *t, const struct m
 	} else if (TRANSPORT == TRANSPORT_GRID) {
 		fv thinnest = FV(FAR);
 		EACH_WAVE(j) {
-			out[j] = s->counted ? g->passage.depth[j] : of_wave(s, t->extinction, m, w, j) * g->passage.depth[0];
+			out[j] = s->counted ? g->passage.depth[j] : of_wave(s, t->extinction, 0, m, w, j) * g->passage.depth[0];
 			thinnest = least(thinnest, out[j]);
 		}
 		fv sure = most(FV(0.f), thinnest - SHADOW_DEPTH);    /* e^-sure was the chance to come through */
@@ -90,7 +90,7 @@ FN void shadow_end(const struct scene *s, const struct tables *t, const struct m
 			out[j] = SEL(g->passage.reached, FV(0.f), expneg(out[j] - sure));
 	} else {
 		EACH_WAVE(j)
-			out[j] = expneg(of_wave(s, t->extinction, m, w, j) * g->bulk.length);
+			out[j] = expneg(of_wave(s, t->extinction, 0, m, w, j) * g->bulk.length);
 	}
 }
 
@@ -145,7 +145,7 @@ FN struct collision flight_voxels(const struct scene *s, const struct tables *t,
 		c.class = s->only_class >= 0 ? IV(s->only_class)
 		    : class_in(s, t, c.happened, g->cell, hero_of(s, w, hero), draw(random, DRAW_CLASS));
 	EACH_WAVE(j) {
-		fv own = of_wave(s, t->extinction, m, w, j), depth = s->counted ? g->depth[j] : own * g->depth[0];
+		fv own = of_wave(s, t->extinction, 0, m, w, j), depth = s->counted ? g->depth[j] : own * g->depth[0];
 		fv rate = s->counted ? of_class(s, t->disc, c.happened, c.class, w, j) * s->largest_inverse : own;
 		event[j] = expneg(depth) * SEL(c.happened, rate, FV(1.f));
 	}
@@ -160,7 +160,7 @@ FN struct collision flight_bulk(const struct scene *s, const struct tables *t, c
 	fv length = SEL(happened, free * (1.f / sigma), g->length);
 	struct collision c = { happened, add(g->entry, scale(g->along, length)), g->t0 + length, IV(s->n_classes), IV(NONE) };
 	EACH_WAVE(j) {
-		fv own = of_wave(s, t->extinction, m, w, j);
+		fv own = of_wave(s, t->extinction, 0, m, w, j);
 		event[j] = expneg(own * length) * SEL(c.happened, own, FV(1.f));
 	}
 	return c;

@@ -51,7 +51,7 @@ FN void see(const struct scene *s, const struct tables *t, struct path *p, mv m,
 	fv seen = p->weight[j] * k;
 	for (int i = 0; i < s->channels; i++) {
 #ifdef WAVES
-		fv c = FV(t->colour[6 * j + i]), share = FV(t->colour[6 * j + 3 + i]);
+		fv c = FV(float_at(t->colour, 6 * j + i)), share = FV(float_at(t->colour, 6 * j + 3 + i));
 #else
 		iv row = 6 * wave_of(s, p->waves, j) + i;
 		fv c = gather(m, t->colour, row), share = gather(m, t->colour, row + 3);

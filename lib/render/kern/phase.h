@@ -20,7 +20,7 @@ struct interval {
 
 FN iv phase_row(const struct scene *s, const struct tables *t, mv m, iv class, int k)
 {
-	return s->only_class >= 0 ? IV(t->phase[PHASE_ROW * s->only_class + k]) : igather(m, t->phase, PHASE_ROW * class + k);
+	return s->only_class >= 0 ? IV(int_at(t->phase, PHASE_ROW * s->only_class + k)) : igather(m, t->phase, PHASE_ROW * class + k);
 }
 
 #define INTERVAL_ROW(waves) (4 + 2 * (waves))
@@ -36,10 +36,10 @@ FN void interval_load(const struct scene *s, const struct tables *t, mv m, iv i,
 	out->width = q[3];
 	for (int j = 0; j < CARRIED; j += 2) {
 #ifdef WAVES
-		gather4(m, t->interval + 4 + 2 * j, row, q);    /* two wavelengths; beyond the last one, what follows */
+		gather4(m, t->interval, row + (4 + 2 * j), q);    /* two wavelengths; beyond the last one, what follows */
 #else
 		for (int k = 0; k < 4; k++)
-			q[k] = gather(m, t->interval + 4 + k % 2, row + 2 * wave_of(s, w, j + k / 2));
+			q[k] = gather(m, t->interval, row + (4 + k % 2) + 2 * wave_of(s, w, j + k / 2));
 #endif
 		out->p[j] = q[0];
 		out->slope[j] = q[1];
@@ -63,7 +63,7 @@ FN void phase_value(const struct scene *s, const struct tables *t, mv m, iv clas
 	struct interval i;
 #if defined WAVES && WAVES == 1
 	fv q[4];                   /* all that is needed in one row */
-	gather4(m, t->interval + 2, INTERVAL_ROW(1) * at[0], q);
+	gather4(m, t->interval, INTERVAL_ROW(1) * at[0] + 2, q);
 	i = (struct interval){ .theta = q[0], .width = q[1], .p = { q[2] }, .slope = { q[3] } };
 #else
 	interval_load(s, t, m, at[0], w, &i);

@@ -26,21 +26,26 @@ struct waves {
 	iv n, first;
 };
 
-/* A value of wavelength j, from a row of values by wavelength; of lanes m. */
+/* A value of wavelength j, from a table by wavelength that begins at index from; of lanes m. */
 #ifdef WAVES
 FN iv wave_of(const struct scene *s, struct waves w, int j) { return (void)s, (void)w, IV(j); }
-FN fv of_wave(const struct scene *s, GLOBAL const float *row, mv m, struct waves w, int j) { return (void)s, (void)w, (void)m, FV(row[j]); }
+FN fv of_wave(const struct scene *s, FLOATS table, int from, mv m, struct waves w, int j)
+{
+	return (void)s, (void)w, (void)m, FV(float_at(table, from + j));
+}
 #else
 FN iv wave_of(const struct scene *s, struct waves w, int j) { return ileast(w.first + s->n_groups * j, IV(s->n_waves - 1)); }
-FN fv of_wave(const struct scene *s, GLOBAL const float *row, mv m, struct waves w, int j) { return gather(m, row, wave_of(s, w, j)); }
+FN fv of_wave(const struct scene *s, FLOATS table, int from, mv m, struct waves w, int j)
+{
+	return gather(m, table, from + wave_of(s, w, j));
+}
 #endif
 
 /* The same from a table [class][wave]. */
-FN fv of_class(const struct scene *s, GLOBAL const float *table, mv m, iv class, struct waves w, int j)
+FN fv of_class(const struct scene *s, FLOATS table, mv m, iv class, struct waves w, int j)
 {
-	if (s->only_class >= 0)
-		return of_wave(s, table + s->only_class * s->n_waves, m, w, j);
-	return gather(m, table, class * s->n_waves + wave_of(s, w, j));
+	return s->only_class >= 0 ? of_wave(s, table, s->only_class * s->n_waves, m, w, j)
+	    : gather(m, table, class * s->n_waves + wave_of(s, w, j));
 }
 
 /* The index of the hero, one of j < n, in the medium's list; and a value of it. */
@@ -53,11 +58,12 @@ FN iv hero_of(const struct scene *s, struct waves w, iv hero)
 #endif
 }
 
-FN fv of_hero(const struct scene *s, GLOBAL const float *row, mv m, struct waves w, iv hero)
+FN fv of_hero(const struct scene *s, FLOATS table, mv m, struct waves w, iv hero)
 {
-	return CARRIED == 1 ? FV(row[0]) : gather(m, row, hero_of(s, w, hero));
+	return CARRIED == 1 ? FV(float_at(table, 0)) : gather(m, table, hero_of(s, w, hero));
 }
 
+/* The hero's of values by wavelength. */
 FN fv hero_among(const struct scene *s, const fv *value, iv hero)
 {
 	fv own = value[0];

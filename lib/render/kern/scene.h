@@ -64,21 +64,21 @@ struct scene {
 #define ANGLE_STEPS 256      /* of the first level of the index of angles */
 
 struct tables {
-	GLOBAL const float *extinction;  /* [wave] m^-1, of the whole medium; for a density grid, where it is 1 */
-	GLOBAL const float *disc;        /* [class][wave] squared radius of the disc of area c_ext, m^2 */
-	GLOBAL const float *albedo;      /* [class][wave] */
-	GLOBAL const float *colour;      /* [wave][6] linear RGB of radiance 1; the shares of a light's R, G and B in it */
-	GLOBAL const int *phase;         /* [class][4] where its phase function stands in the next three, see phase.h */
-	GLOBAL const float *interval;    /* [interval][4 + 2 wave] sin, cos, theta, width; for each wavelength p in sr^-1 and its slope */
-	GLOBAL const int *alias;         /* [column][wave][2] threshold, the other interval */
-	GLOBAL const int *angle;         /* [step][2] first part, number of parts; [part][2] interval, the bits of where the next begins */
-	GLOBAL const float *particle;    /* [particle][4] position m, the bits of the class; cell by cell */
-	GLOBAL const int *first;         /* [cell] its first particle; one more at the end */
-	GLOBAL const int *brick;         /* [brick] where its voxels begin, NONE if nothing is in them; see voxels.h */
-	GLOBAL const float *voxel;       /* by brick: [voxel][wave] extinction, m^-1; or nodes of density relative to extinction[] */
-	GLOBAL const int *count;         /* [voxel][class] particles, row by row */
-	GLOBAL const float *map;         /* [row][column][3] radiance */
-	GLOBAL const int *map_cdf;       /* [row + 1] of the rows, then [row][column + 1] of each row's texels, in units of 2^-31 */
+	FLOATS extinction;  /* [wave] m^-1, of the whole medium; for a density grid, where it is 1 */
+	FLOATS disc;        /* [class][wave] squared radius of the disc of area c_ext, m^2 */
+	FLOATS albedo;      /* [class][wave] */
+	FLOATS colour;      /* [wave][6] linear RGB of radiance 1; the shares of a light's R, G and B in it */
+	INTS phase;         /* [class][4] where its phase function stands in the next three, see phase.h */
+	FLOATS interval;    /* [interval][4 + 2 wave] sin, cos, theta, width; for each wavelength p in sr^-1 and its slope */
+	INTS alias;         /* [column][wave][2] threshold, the other interval */
+	INTS angle;         /* [step][2] first part, number of parts; [part][2] interval, the bits of where the next begins */
+	FLOATS particle;    /* [particle][4] position m, the bits of the class; cell by cell */
+	INTS first;         /* [cell] its first particle; one more at the end */
+	INTS brick;         /* [brick] where its voxels begin, NONE if nothing is in them; see voxels.h */
+	FLOATS voxel;       /* by brick: [voxel][wave] extinction, m^-1; or nodes of density relative to extinction[] */
+	INTS count;         /* [voxel][class] particles, row by row */
+	FLOATS map;         /* [row][column][3] radiance */
+	INTS map_cdf;       /* [row + 1] of the rows, then [row][column + 1] of each row's texels, in units of 2^-31 */
 };
 
 #endif

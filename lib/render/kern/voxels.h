@@ -64,7 +64,7 @@ FN void corners(const struct tables *t, mv m, iv brick, const iv *cell, fv *p)
 	const int in = BRICK - 1;
 	iv at = brick * BRICK_CORNERS + (cell[2] & in) * FACE + (cell[1] & in) * FACE_ROW + (cell[0] & in) * 2;
 	gather4(m, t->voxel, at, p);
-	gather4(m, t->voxel + FACE, at, p + 4);
+	gather4(m, t->voxel, at + FACE, p + 4);
 }
 
 /* Density at the fractions x, y, z of a cell. */

@@ -1,0 +1,24 @@
+/* compat - the qualifiers and names of types in which C and OpenCL C 1.2 differ. */
+#ifndef KERN_COMPAT_H
+#define KERN_COMPAT_H
+
+#ifdef __OPENCL_VERSION__
+#pragma OPENCL FP_CONTRACT OFF
+#ifndef FN
+#define FN static inline __attribute__((always_inline))
+#endif
+#define GLOBAL __global
+typedef long int64;
+typedef uint uint32;
+typedef ulong uint64;
+#else
+#include <stdint.h>
+#include <string.h>
+#define FN static inline __attribute__((always_inline, unused))
+#define GLOBAL
+typedef int64_t int64;
+typedef uint32_t uint32;
+typedef uint64_t uint64;
+#endif
+
+#endif
