@@ -29,7 +29,7 @@ LANES_v2 = -DLANES=4 -march=x86-64-v2
 LANES_v3 = -DLANES=8 -march=x86-64-v3
 LANES_v4 = -DLANES=16 -march=x86-64-v4 -mprefer-vector-width=512
 LANE_OBJECTS = $(foreach cpu,$(CPUS),$(foreach t,0 1 2 3,$(foreach w,0 1 3,obj/render/lanes/$(cpu)_$(t)_$(w).o)))
-lane_flags = -g1 -Wno-unused-parameter -Wno-psabi $(LANES_$(word 1,$(1))) -DRENDER=render_$(subst $(space),_,$(1)) -DTRANSPORT=$(word 2,$(1)) $(filter-out -DWAVES=0,-DWAVES=$(word 3,$(1)))
+lane_flags = -g1 -Wno-unused-parameter $(LANES_$(word 1,$(1))) -DRENDER=render_$(subst $(space),_,$(1)) -DTRANSPORT=$(word 2,$(1)) $(filter-out -DWAVES=0,-DWAVES=$(word 3,$(1)))
 space = $(subst ,, )
 MAN = $(wildcard man/*.[1-9])
 
@@ -44,7 +44,7 @@ $(1)/obj/%.o: lib/%.c
 	$$(CC) $$(OWN_CFLAGS) $$(EXR_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -c -o $$@ $$<
 $(addprefix $(1)/,$(LANE_OBJECTS)): $(1)/obj/render/lanes/%.o: lib/render/lanes.c
 	@mkdir -p $$(@D)
-	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(2) $$(call lane_flags,$$(subst _, ,$$*)) -MMD -MP -c -o $$@ $$<
+	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-O3) $$(call lane_flags,$$(subst _, ,$$*)) -MMD -MP -c -o $$@ $$<
 $(1)/obj/gen/%.o: $(B)/gen/%.c
 	@mkdir -p $$(@D)
 	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -c -o $$@ $$<

@@ -4,7 +4,7 @@
 . "$(dirname "$0")/lib.sh"
 # shellcheck source=tests/render.sh
 . "$(dirname "$0")/render.sh"
-plan 104
+plan 108
 
 # box HALF RADIANCE: six quads that face inwards.
 box() {

@@ -59,13 +59,19 @@ agree() {
 		'BEGIN { d = m - w; exit !(d * d <= 16 * (s * s) + e * e && s <= most && s > 0) }'
 	ok $? "$1: $m, wanted $2 +- $3, standard error $se"
 }
-# same_bytes SCENE SAMPLES TINY: five tests a transport, of a scene and of a picture of it small enough for the simulator.
+# same_bytes SCENE SAMPLES TINY: six tests a transport, of a scene and of a picture of it small enough for the simulator.
 same_bytes() {
 	for t in explicit fat-ray grid continuous; do
 		vrender "$1" --samples "$2" --transport $t --threads 1 -o one.exr
 		vrender "$1" --samples "$2" --transport $t --threads 2 -o two.exr
 		cmp one.exr two.exr
 		ok $? "$t: two threads give the bytes of one"
+		differ=
+		for cpu in scalar v2 v3 v4; do    # those that the processor has
+			MOTES_CPU=$cpu vrender "$1" --samples "$2" --transport $t -o one_cpu.exr 2>cpu.err && cmp one.exr one_cpu.exr && continue
+			grep -q 'this processor is no' cpu.err || differ=yes
+		done
+		is '' "$differ" "$t: so do kernels in lanes of any width"
 		vrender "$1" --samples "$2" --transport $t --backend opencl -o cl.exr
 		cmp one.exr cl.exr
 		ok $? "$t: OpenCL gives the bytes of C"

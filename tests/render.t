@@ -4,7 +4,7 @@
 . "$(dirname "$0")/lib.sh"
 # shellcheck source=tests/render.sh
 . "$(dirname "$0")/render.sh"
-plan 46
+plan 50
 hg 0 0.55 >iso.phase
 hg 0.8 0.55 >hg.phase
 hg 0.8 0.45 0.55 0.65 >hg3.phase

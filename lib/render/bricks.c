@@ -54,6 +54,27 @@ static int fill_density(const struct medium *m, const int *cell, float *out)
 	return some;
 }
 
+#define DISTANCE_MOST 4096
+
+/* A king's distances to the nearest kept brick: two sweeps over the neighbours on either side (Rosenfeld and Pfaltz 1968). */
+static void distances(const struct bricks *b)
+{
+	int32_t nx = b->size[0], ny = b->size[1], nz = b->size[2];
+	for (int way = 1; way >= -1; way -= 2)
+		for (size_t k = 0; k < b->n_brick; k++) {
+			size_t i = way > 0 ? k : b->n_brick - 1 - k;
+			int32_t x = (int32_t)(i % (size_t)nx), y = (int32_t)(i / (size_t)nx % (size_t)ny), z = (int32_t)(i / (size_t)nx / (size_t)ny);
+			for (int n = 0; n < 13 && b->brick[i] < 0; n++) {
+				int32_t u = x + way * (n % 3 - 1), v = y + way * (n / 3 % 3 - 1), w = z + way * (n / 9 - 1);
+				if (u < 0 || u >= nx || v < 0 || v >= ny || w < 0 || w >= nz)
+					continue;
+				int32_t near = b->brick[((size_t)w * (size_t)ny + (size_t)v) * (size_t)nx + (size_t)u];
+				near = near < 0 ? -near : 0;
+				b->brick[i] = -b->brick[i] > near + 1 ? -(near + 1) : b->brick[i];
+			}
+		}
+}
+
 void bricks_make(struct bricks *b, const struct medium *m)
 {
 	int counted = m->n_particles > 0;
@@ -62,17 +83,21 @@ void bricks_make(struct bricks *b, const struct medium *m)
 	float *scratch = xalloc(one, sizeof *scratch);
 	memset(b, 0, sizeof *b);
 	for (int a = 0; a < 3; a++)
-		b->size[a] = (m->voxels[a] + !counted + BRICK - 1) / BRICK;
+		b->size[a] = (m->voxels[a] + !counted + BRICK - 1) / BRICK + 2;
 	b->n_brick = (size_t)b->size[0] * (size_t)b->size[1] * (size_t)b->size[2];
 	b->brick = xalloc(b->n_brick, sizeof *b->brick);
 	for (int pass = 0; pass < 2; pass++) {    /* first which are kept, then what they hold */
 		for (size_t i = 0; i < b->n_brick; i++) {
-			const int cell[3] = { BRICK * (int)(i % (size_t)b->size[0]), BRICK * (int)(i / (size_t)b->size[0] % (size_t)b->size[1]),
-				BRICK * (int)(i / (size_t)b->size[0] / (size_t)b->size[1]) };
+			const int at[3] = { (int)(i % (size_t)b->size[0]), (int)(i / (size_t)b->size[0] % (size_t)b->size[1]),
+				(int)(i / (size_t)b->size[0] / (size_t)b->size[1]) };
+			const int cell[3] = { BRICK * (at[0] - 1), BRICK * (at[1] - 1), BRICK * (at[2] - 1) };
+			int inner = 1;
+			for (int a = 0; a < 3; a++)
+				inner &= at[a] > 0 && at[a] < b->size[a] - 1;
 			if (pass && b->brick[i] >= 0)
 				fill(m, cell, b->voxel + (size_t)b->brick[i] * one);
 			else if (!pass)
-				b->brick[i] = fill(m, cell, scratch) ? (int32_t)kept++ : -1;
+				b->brick[i] = inner && fill(m, cell, scratch) ? (int32_t)kept++ : -DISTANCE_MOST;
 		}
 		if (kept * one > INT32_MAX)
 			die("medium", "has too many voxels to render as a grid: %zu x %d are filled", kept, BRICK_CELLS);
@@ -82,6 +107,7 @@ void bricks_make(struct bricks *b, const struct medium *m)
 		}
 	}
 	free(scratch);
+	distances(b);
 }
 
 void bricks_free(struct bricks *b)

@@ -5,8 +5,9 @@
 #include "medium/medium.h"
 
 struct bricks {
-	int32_t size[3];           /* bricks along x, y, z */
-	int32_t *brick;            /* [z][y][x] the number of its voxels among those that are kept, or -1 */
+	int32_t size[3];           /* bricks along x, y, z, with an empty layer all around */
+	int32_t *brick;            /* [z][y][x] the number of its voxels among those that are kept, or minus the distance in bricks, as a
+	                              king walks, to the nearest one that is kept */
 	float *voxel;              /* those kept, one after the other */
 	size_t n_brick, n_voxel;
 };

@@ -189,10 +189,10 @@ static void voxels(struct job *j, const struct medium *m)
 	struct scene *s = &j->scene;
 	s->counted = m->n_particles > 0;
 	for (int a = 0; a < 3; a++) {
-		/* cells lie between the nodes of a density, and half of one before the first */
+		/* cells lie between the nodes of a density, and half of one before the first; before all, an empty brick */
 		double side = s->counted ? m->voxel : 2 * m->half[a] / m->voxels[a];
 		s->voxels[a] = m->voxels[a] + !s->counted;
-		s->voxel_low[a] = (float)(-m->half[a] - (s->counted ? 0 : side / 2));
+		s->voxel_low[a] = (float)(-m->half[a] - (BRICK + (s->counted ? 0 : 0.5)) * side);
 		s->voxel[a] = (float)side;
 		s->voxels_per_m[a] = (float)(1 / side);
 	}

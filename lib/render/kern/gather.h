@@ -172,7 +172,7 @@ FN fv coin(const struct random *random, iv id)
 FN struct vec particle_at(const struct tables *t, mv m, iv n, iv *class)
 {
 	fv q[4];
-	gather4(m, t->particle, 4 * n, q);
+	gather4(m, t->particle, 4 * n, 0, q);
 	*class = signed_of(float_bits(q[3]));
 	return vec3(q[0], q[1], q[2]);
 }

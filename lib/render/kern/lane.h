@@ -84,10 +84,10 @@ FN void l8_store(GLOBAL int64 *p, l8 x) { vstore8(x, 0, p); }
 FN uint64 high_product(uint64 a, uint64 b) { return mul_hi(a, b); }
 FN fv gather(mv m, FLOATS p, iv i) { i &= m; return (fv)EACH_AT(float_at, p, i); }
 FN iv igather(mv m, INTS p, iv i) { i &= m; return (iv)EACH_AT(int_at, p, i); }
-FN void gather4(mv m, FLOATS p, iv i, fv *out)
+FN void gather4(mv m, FLOATS p, iv i, int offset, fv *out)
 {
 	for (int k = 0; k < 4; k++)
-		out[k] = gather(m, p, i + k);
+		out[k] = gather(m, p, i + (offset + k));
 }
 FN void igather2(mv m, INTS p, iv i, iv *out)
 {
@@ -205,7 +205,7 @@ FN iv signed_of(uv x) { return (iv)x; }
 FN uv unsigned_of(iv x) { return (uv)x; }
 #define LANE_FLOAT(v, i) LANE(v, i)
 
-/* Four floats in a row, p[i] to p[i + 3], or two integers; what comes to lanes outside m has no meaning. */
+/* Four floats in a row, from p[i + offset] on, or two integers; what comes to lanes outside m has no meaning. */
 #if LANES == 1
 FN void igather2(mv m, const int *p, iv i, iv *out)
 {
@@ -213,18 +213,18 @@ FN void igather2(mv m, const int *p, iv i, iv *out)
 	out[0] = p[0];
 	out[1] = p[1];
 }
-FN void gather4(mv m, const float *p, iv i, fv *out)
+FN void gather4(mv m, const float *p, iv i, int offset, fv *out)
 {
-	p += m ? i : 0;
+	p += offset + (m ? i : 0);
 	for (int k = 0; k < 4; k++)
 		out[k] = p[k];
 }
 #else
 /* A row is one load; the rest is the transposition of rows of 128 bits, four lanes apart in a vector. */
-FN void gather4(mv m, const float *p, iv i, fv *out)
+FN void gather4(mv m, const float *p, iv i, int offset, fv *out)
 {
 	union { iv v; int32_t i[LANES]; } at = { SEL(m, i, IV(0)) };
-#define ROW(k) _mm_loadu_ps(p + at.i[k])
+#define ROW(k) _mm_loadu_ps(p + at.i[k] + offset)
 #if LANES == 16
 	__m512 r[4];
 	for (int k = 0; k < 4; k++) {

@@ -6,6 +6,8 @@
 
 #define PI 3.14159265f
 
+/* x without its fraction, and without its sign. */
+FN fv whole(fv x) { return to_float(to_int(x)); }
 FN fv size_of(fv x) { return bits_float(float_bits(x) & 0x7fffffffu); }
 
 /* log(1 + m) for 1 + m in [root(1/2), sqrt 2); relative error below 2e-7. */

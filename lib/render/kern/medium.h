@@ -121,9 +121,11 @@ FN struct collision flight_particles(const struct scene *s, const struct tables 
 }
 
 /* Which class of a cube's particles is met: by count x c_ext of the hero. */
-FN iv class_in(const struct scene *s, const struct tables *t, mv m, const iv *cell, iv wave, fv u)
+FN iv class_in(const struct scene *s, const struct tables *t, mv m, const struct passage *g, iv wave, fv u)
 {
-	iv class = IV(0), row = ((cell[2] * s->voxels[1] + cell[1]) * s->voxels[0] + cell[0]) * s->n_classes;
+	iv i[3];
+	indices(g, i);
+	iv class = IV(0), row = (((i[2] - BRICK) * s->voxels[1] + (i[1] - BRICK)) * s->voxels[0] + (i[0] - BRICK)) * s->n_classes;
 	fv all = FV(0.f), sum = FV(0.f);
 	for (int k = 0; k < s->n_classes; k++)
 		all += to_float(igather(m, t->count, row + k)) * gather(m, t->disc, k * s->n_waves + wave);
@@ -143,7 +145,7 @@ FN struct collision flight_voxels(const struct scene *s, const struct tables *t,
 	c.t += g->t0;
 	if (s->counted)
 		c.class = s->only_class >= 0 ? IV(s->only_class)
-		    : class_in(s, t, c.happened, g->cell, hero_of(s, w, hero), draw(random, DRAW_CLASS));
+		    : class_in(s, t, c.happened, g, hero_of(s, w, hero), draw(random, DRAW_CLASS));
 	EACH_WAVE(j) {
 		fv own = of_wave(s, t->extinction, 0, m, w, j), depth = s->counted ? g->depth[j] : own * g->depth[0];
 		fv rate = s->counted ? of_class(s, t->disc, c.happened, c.class, w, j) * s->largest_inverse : own;

@@ -29,14 +29,14 @@ FN void interval_load(const struct scene *s, const struct tables *t, mv m, iv i,
 {
 	iv row = INTERVAL_ROW(s->n_waves) * i;
 	fv q[4];
-	gather4(m, t->interval, row, q);
+	gather4(m, t->interval, row, 0, q);
 	out->sine = q[0];
 	out->cosine = q[1];
 	out->theta = q[2];
 	out->width = q[3];
 	for (int j = 0; j < CARRIED; j += 2) {
 #ifdef WAVES
-		gather4(m, t->interval, row + (4 + 2 * j), q);    /* two wavelengths; beyond the last one, what follows */
+		gather4(m, t->interval, row, 4 + 2 * j, q);    /* two wavelengths; beyond the last one, what follows */
 #else
 		for (int k = 0; k < 4; k++)
 			q[k] = gather(m, t->interval, row + (4 + k % 2) + 2 * wave_of(s, w, j + k / 2));
@@ -63,7 +63,7 @@ FN void phase_value(const struct scene *s, const struct tables *t, mv m, iv clas
 	struct interval i;
 #if defined WAVES && WAVES == 1
 	fv q[4];                   /* all that is needed in one row */
-	gather4(m, t->interval, INTERVAL_ROW(1) * at[0] + 2, q);
+	gather4(m, t->interval, INTERVAL_ROW(1) * at[0], 2, q);
 	i = (struct interval){ .theta = q[0], .width = q[1], .p = { q[2] }, .slope = { q[3] } };
 #else
 	interval_load(s, t, m, at[0], w, &i);

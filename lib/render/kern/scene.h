@@ -46,7 +46,7 @@ struct scene {
 	float reach;               /* that radius, and what rounding may move a place in the grid */
 	int counted;               /* voxels are cubes of particles, else the cells between the nodes of a density */
 	int voxels[3], bricks[3];
-	float voxel_low[3], voxel[3], voxels_per_m[3];
+	float voxel_low[3], voxel[3], voxels_per_m[3];    /* the low end of the bricks, whose outermost have nothing in them */
 	int has_ground;
 	float ground_height, ground_albedo;
 	float environment[3];      /* radiance, the same all around */
@@ -74,7 +74,7 @@ struct tables {
 	INTS angle;         /* [step][2] first part, number of parts; [part][2] interval, the bits of where the next begins */
 	FLOATS particle;    /* [particle][4] position m, the bits of the class; cell by cell */
 	INTS first;         /* [cell] its first particle; one more at the end */
-	INTS brick;         /* [brick] where its voxels begin, NONE if nothing is in them; see voxels.h */
+	INTS brick;         /* [brick] the number of its voxels, or minus its distance to any that has some; see voxels.h */
 	FLOATS voxel;       /* by brick: [voxel][wave] extinction, m^-1; or nodes of density relative to extinction[] */
 	INTS count;         /* [voxel][class] particles, row by row */
 	FLOATS map;         /* [row][column][3] radiance */

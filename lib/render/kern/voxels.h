@@ -1,9 +1,11 @@
 /* voxels - extinction on a grid, tracked exactly: constant in cubes that count particles, trilinear between the nodes of a density,
  * where it is a cubic along the ray within a cell.
  *
- * Cells lie in bricks of BRICK^3, each one piece of memory; a brick with nothing in it has none and is passed in one step. A brick of
- * cubes holds [z][y][x][wave]. A brick of a density holds the corners of its cells as faces across z, so that a cell is read by two
- * loads of four floats: [z of 5][y of 4][x of 5][y, y + 1]. lib/render/bricks.c makes them. */
+ * Cells lie in bricks of BRICK^3, each one piece of memory. A brick with nothing in it has none, but says how many bricks away, in
+ * any direction, the nearest that is not empty lies: a ray passes all the empty ones around it in one step. The outermost are empty,
+ * so that a ray that rounding puts a cell too far is still among bricks. A brick of cubes holds [z][y][x][wave]. A brick of a density
+ * holds the corners of its cells as faces across z, so that a cell is read by two loads of four floats: [z of 5][y of 4][x of 5]
+ * [y, y + 1]. lib/render/bricks.c makes them. */
 #ifndef KERN_VOXELS_H
 #define KERN_VOXELS_H
 
@@ -25,11 +27,12 @@ struct passage {
 	mv flight;                 /* the target is in the hero's optical depth, else in the least of all */
 	fv depth[CARRIED];         /* passed: in cubes the optical depth of each wavelength, in a density its integral, in depth[0] */
 	fv target;
-	struct vec entry, along, inverse;
+	struct vec entry, along;
 	fv t0;                     /* entry, along the ray */
 	fv t, t1;                  /* from entry: of the cell that it is in, where it enters; where it leaves the medium */
 	fv span;                   /* of the cell that has the target */
-	iv cell[3];
+	/* in cells, from the low end: entry, direction and its inverse, 1 where it goes up; the cell */
+	fv at[3], d[3], inverse[3], up[3], cell[3];
 };
 
 FN void passage_begin(const struct scene *s, struct passage *g, mv m, struct ray r, fv t_end, int flight, fv target)
@@ -38,13 +41,17 @@ FN void passage_begin(const struct scene *s, struct passage *g, mv m, struct ray
 	clip_medium(s, r, &t0, &t1);
 	t1 = least(t1, t_end) - t0;
 	struct vec entry = add(r.from, scale(r.along, t0));
-	const fv at[3] = { entry.x, entry.y, entry.z };
+	const fv at[3] = { entry.x, entry.y, entry.z }, d[3] = { r.along.x, r.along.y, r.along.z };
+	const fv inverse[3] = { r.inverse.x, r.inverse.y, r.inverse.z };
 	set3(m, &g->entry, entry);
 	set3(m, &g->along, r.along);
-	set3(m, &g->inverse, r.inverse);
 	for (int a = 0; a < 3; a++) {
 		fv place = (at[a] - s->voxel_low[a]) * s->voxels_per_m[a];
-		SET(m, g->cell[a], to_int(most(FV(0.f), least(place, FV((float)(s->voxels[a] - 1))))));
+		SET(m, g->at[a], place);
+		SET(m, g->d[a], d[a] * s->voxels_per_m[a]);
+		SET(m, g->inverse[a], inverse[a] * s->voxel[a]);
+		SET(m, g->up[a], SEL(lt(FV(0.f), inverse[a]), FV(1.f), FV(0.f)));
+		SET(m, g->cell[a], whole(least(most(place, FV((float)BRICK)), FV((float)(BRICK + s->voxels[a] - 1)))));
 	}
 	SET(m, g->t0, t0);
 	SET(m, g->t, FV(0.f));
@@ -58,64 +65,68 @@ FN void passage_begin(const struct scene *s, struct passage *g, mv m, struct ray
 	SET_TRUTH(m, g->going, lt(FV(0.f), t1));
 }
 
-/* The eight corners of a cell, [z][x][y]. */
-FN void corners(const struct tables *t, mv m, iv brick, const iv *cell, fv *p)
+/* The cell as integers. */
+FN void indices(const struct passage *g, iv *i)
 {
-	const int in = BRICK - 1;
-	iv at = brick * BRICK_CORNERS + (cell[2] & in) * FACE + (cell[1] & in) * FACE_ROW + (cell[0] & in) * 2;
-	gather4(m, t->voxel, at, p);
-	gather4(m, t->voxel, at + FACE, p + 4);
+	for (int a = 0; a < 3; a++)
+		i[a] = to_int(g->cell[a]);
 }
 
-/* Density at the fractions x, y, z of a cell. */
-FN fv trilinear(const fv *p, fv x, fv y, fv z)
+FN iv brick_of(const struct scene *s, const struct tables *t, mv m, const iv *i)
 {
+	return igather(m, t->brick, ((i[2] >> 2) * s->bricks[1] + (i[1] >> 2)) * s->bricks[0] + (i[0] >> 2));
+}
+
+/* The eight corners of a cell, [z][x][y]. */
+FN void corners(const struct tables *t, mv m, iv brick, const iv *i, fv *p)
+{
+	const int in = BRICK - 1;
+	iv at = brick * BRICK_CORNERS + (i[2] & in) * FACE + (i[1] & in) * FACE_ROW + (i[0] & in) * 2;
+	gather4(m, t->voxel, at, 0, p);
+	gather4(m, t->voxel, at, FACE, p + 4);
+}
+
+/* Density at t, in the cell of these corners. */
+FN fv density_along(const struct passage *g, const fv *p, fv t)
+{
+	fv x = g->at[0] + g->d[0] * t - g->cell[0], y = g->at[1] + g->d[1] * t - g->cell[1], z = g->at[2] + g->d[2] * t - g->cell[2];
 	fv a = p[0] + (p[2] - p[0]) * x, b = p[1] + (p[3] - p[1]) * x, c = p[4] + (p[6] - p[4]) * x, d = p[5] + (p[7] - p[5]) * x;
 	fv e = a + (b - a) * y, f = c + (d - c) * y;
 	return e + (f - e) * z;
 }
 
-/* Density at t, in the cell of these corners. */
-FN fv density_along(const struct scene *s, const struct passage *g, const fv *p, fv t)
-{
-	fv x = (g->entry.x + g->along.x * t - s->voxel_low[0]) * s->voxels_per_m[0] - to_float(g->cell[0]);
-	fv y = (g->entry.y + g->along.y * t - s->voxel_low[1]) * s->voxels_per_m[1] - to_float(g->cell[1]);
-	fv z = (g->entry.z + g->along.z * t - s->voxel_low[2]) * s->voxels_per_m[2] - to_float(g->cell[2]);
-	return trilinear(p, x, y, z);
-}
-
-FN iv brick_of(const struct scene *s, const struct tables *t, mv m, const iv *cell)
-{
-	return igather(m, t->brick, ((cell[2] / BRICK) * s->bricks[1] + cell[1] / BRICK) * s->bricks[0] + cell[0] / BRICK);
-}
-
-/* One cell, or one empty brick, of all lanes under way (3D-DDA). */
+/* One cell, or empty bricks at once, of all lanes under way (3D-DDA). */
 FN void passage_on(const struct scene *s, const struct tables *t, struct passage *g, struct waves w, iv hero)
 {
-	mv m = g->going, up[3];
-	iv brick = brick_of(s, t, m, g->cell), wall[3];
-	mv empty = ilt(brick, IV(0)), full = m & NOT(empty);
-	const fv at[3] = { g->entry.x, g->entry.y, g->entry.z }, d[3] = { g->along.x, g->along.y, g->along.z };
-	const fv inverse[3] = { g->inverse.x, g->inverse.y, g->inverse.z };
-	fv leave[3];
+	mv m = g->going;
+	iv i[3];
+	indices(g, i);
+	iv brick = brick_of(s, t, m, i);
+	mv empty = m & ilt(brick, IV(0)), full = m & NOT(empty);
+	/* what is passed now: cells from low on, one or many along each axis */
+	fv low[3] = { g->cell[0], g->cell[1], g->cell[2] }, many = FV(1.f), wall[3], leave[3];
+	if (any(empty)) {
+		many = SEL(empty, to_float((-2 * BRICK) * brick - BRICK), many);
+		for (int a = 0; a < 3; a++)
+			low[a] = SEL(empty, to_float((i[a] & ~(BRICK - 1)) + (brick + 1) * BRICK), low[a]);
+	}
 	for (int a = 0; a < 3; a++) {
-		up[a] = lt(FV(0.f), inverse[a]);
-		iv low = SEL(empty, g->cell[a] & ~(BRICK - 1), g->cell[a]);
-		wall[a] = low + SEL(up[a], SEL(empty, IV(BRICK), IV(1)), IV(0));
-		leave[a] = (s->voxel_low[a] + to_float(wall[a]) * s->voxel[a] - at[a]) * inverse[a];
+		wall[a] = low[a] + g->up[a] * many;
+		leave[a] = (wall[a] - g->at[a]) * g->inverse[a];
 	}
 	fv out = least(leave[0], least(leave[1], leave[2])), span = most(FV(0.f), least(out, g->t1) - g->t);
 	if (s->counted) {
 		fv here[CARRIED], own = FV(FAR), own_here = FV(FAR);
-		iv at_cell = (brick * BRICK_CELLS + ((g->cell[2] & 3) * BRICK + (g->cell[1] & 3)) * BRICK + (g->cell[0] & 3)) * s->n_waves;
+		iv at = (brick * BRICK_CELLS + ((i[2] & 3) * BRICK + (i[1] & 3)) * BRICK + (i[0] & 3)) * s->n_waves;
 		EACH_WAVE(j) {
-			here[j] = gather(full, t->voxel, at_cell + wave_of(s, w, j));
+			here[j] = gather(full, t->voxel, at + wave_of(s, w, j));
 			mv mine = (g->flight & ieq(hero, IV(j))) | (NOT(g->flight) & lt(g->depth[j] + here[j] * span, own + own_here));
 			own = SEL(mine, g->depth[j], own);
 			own_here = SEL(mine, here[j] * span, own_here);
 		}
 		mv hit = full & le(g->target, own + own_here) & lt(FV(0.f), own_here);
-		span = SEL(hit, least(span, (g->target - own) * span / own_here), span);
+		if (any(hit))
+			span = SEL(hit, least(span, (g->target - own) * span / own_here), span);
 		EACH_WAVE(j)
 			SET(full, g->depth[j], g->depth[j] + here[j] * span);
 		SET(hit, g->t, g->t + span);
@@ -123,10 +134,10 @@ FN void passage_on(const struct scene *s, const struct tables *t, struct passage
 		g->going &= NOT(hit);
 	} else {
 		fv p[8];
-		corners(t, full, brick, g->cell, p);
+		corners(t, full, brick, i, p);
 		/* the cubic, by Gauss's two nodes exactly */
-		fv v0 = density_along(s, g, p, g->t + span * 0.211324865f), v1 = density_along(s, g, p, g->t + span * 0.788675135f);
-		fv sum = g->depth[0] + span * (0.5f * (v0 + v1));
+		fv v = density_along(g, p, g->t + span * 0.211324865f) + density_along(g, p, g->t + span * 0.788675135f);
+		fv sum = g->depth[0] + span * (0.5f * v);
 		mv hit = full & le(g->target, sum);
 		SET(hit, g->span, span);
 		SET(full & NOT(hit), g->depth[0], sum);
@@ -135,16 +146,13 @@ FN void passage_on(const struct scene *s, const struct tables *t, struct passage
 	}
 	/* into the next cell */
 	m = g->going;
-	SET(m, g->t, most(g->t, out));
 	for (int a = 0; a < 3; a++) {
 		mv across = le(leave[a], out);
-		iv low = g->cell[a] & ~(BRICK - 1), next = wall[a] - SEL(up[a], IV(0), IV(1));
-		fv place = (at[a] + d[a] * g->t - s->voxel_low[a]) * s->voxels_per_m[a];
-		iv inside = imost(low, ileast(low + (BRICK - 1), to_int(place)));
-		SET(m & across, g->cell[a], next);
-		SET(m & empty & NOT(across), g->cell[a], inside);
-		g->going &= NOT(ilt(g->cell[a], IV(0))) & ilt(g->cell[a], IV(s->voxels[a]));
+		if (any(empty))        /* along the other axes the ray has moved on, too */
+			SET(m & empty, g->cell[a], most(low[a], least(low[a] + (many - 1.f), whole(g->at[a] + g->d[a] * out))));
+		SET(m & across, g->cell[a], wall[a] + (g->up[a] - 1.f));
 	}
+	SET(m, g->t, most(g->t, out));
 	g->going &= lt(g->t, g->t1);
 }
 
@@ -155,13 +163,15 @@ FN fv passage_end(const struct scene *s, const struct tables *t, struct passage 
 	if (s->counted || !any(m))
 		return g->t;
 	fv p[8], v[4], span = g->span;
-	corners(t, m, brick_of(s, t, m, g->cell), g->cell, p);
+	iv i[3];
+	indices(g, i);
+	corners(t, m, brick_of(s, t, m, i), i, p);
 	for (int k = 0; k < 4; k++)    /* four values fix the cubic, which is not negative */
-		v[k] = most(FV(0.f), density_along(s, g, p, g->t + span * ((float)k * 0.333333333f)));
-	fv whole = span * 0.125f * (v[0] + 3.f * (v[1] + v[2]) + v[3]);
+		v[k] = most(FV(0.f), density_along(g, p, g->t + span * ((float)k * 0.333333333f)));
+	fv all = span * 0.125f * (v[0] + 3.f * (v[1] + v[2]) + v[3]);
 	fv q[5] = { v[0], -5.5f * v[0] + 9.f * v[1] - 4.5f * v[2] + v[3], 9.f * v[0] - 22.5f * v[1] + 18.f * v[2] - 4.5f * v[3],
 		-4.5f * v[0] + 13.5f * v[1] - 13.5f * v[2] + 4.5f * v[3], FV(0.f) };
-	fv share = SEL(lt(FV(0.f), whole), least(FV(1.f), (g->target - g->depth[0]) / whole), FV(0.f));
+	fv share = SEL(lt(FV(0.f), all), least(FV(1.f), (g->target - g->depth[0]) / all), FV(0.f));
 	SET(m, g->t, g->t + span * invert_density(q, share, 4));
 	SET(m, g->depth[0], g->target);
 	return g->t;
