@@ -88,9 +88,14 @@ demo: programs
 	@mkdir -p $(B)/demo
 	PATH="$(CURDIR)/$(B)/bin:$$PATH" $(MAKE) -C data/scenes/mist OUT="$(CURDIR)/$(B)/demo"
 
-# Charts of error against time, in $(B)/bench.
+# Charts of error against time, in $(B)/bench: of all, and, with Mitsuba 3 from PyPI where it can be had, of the renderer's speed.
+RENDER_BENCHES = render lanes particles
+BENCHES = $(filter-out $(RENDER_BENCHES),$(patsubst tests/bench/%.sh,%,$(wildcard tests/bench/*.sh)))
 bench: programs $(CHECKS:%=$(B)/tests/%)
-	PATH="$(CURDIR)/$(B)/bin:$$PATH" MOTES_TESTS="$(CURDIR)/$(B)/tests" sh tests/bench/run $(B)/bench
+	PATH="$(CURDIR)/$(B)/bin:$$PATH" MOTES_TESTS="$(CURDIR)/$(B)/tests" sh tests/bench/run $(B)/bench $(BENCHES)
+bench-render: programs
+	sh tests/bench/mitsuba-venv $(B)/mitsuba-venv
+	PATH="$(CURDIR)/$(B)/bin:$$PATH" MOTES_MITSUBA="$(CURDIR)/$(B)/mitsuba-venv" sh tests/bench/run $(B)/bench $(RENDER_BENCHES)
 
 install: programs
 	install -d $(DESTDIR)$(PREFIX)/bin
@@ -101,7 +106,7 @@ install: programs
 clean:
 	rm -rf $(B)
 
-.PHONY: all programs asan-programs deps check asan demo bench install clean
+.PHONY: all programs asan-programs deps check asan demo bench bench-render install clean
 .SECONDARY:
 ifneq ($(filter deps,$(MAKECMDGOALS)),)
 .NOTPARALLEL:
