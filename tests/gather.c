@@ -50,7 +50,7 @@ static struct march walk(const struct cube *q, struct ray r, float t_end, int fl
 
 static void transmittance(const struct cube *q, struct ray r, float t_end, float *out)
 {
-	struct random none = { 0, 0 };
+	struct random none = { .key = 0 };
 	struct march g = walk(q, r, t_end, 0, &none);
 	shadow_end(&q->scene, &q->tables, &g, ALL_LANES, (struct waves){ WAVES, 0 }, out);
 }

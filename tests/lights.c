@@ -147,7 +147,7 @@ int main(void)
 			bad += !(rgb[0] == 0.f);
 		}
 		struct drawn d;
-		struct random random = { bits(), bits() };
+		struct random random = { .key = bits(), .shift = bits() };
 		light_draw(&s, &t, ALL_LANES, i % 6, r.from, &random, &d);
 		if (any(d.shines)) {
 			r.along = d.along;

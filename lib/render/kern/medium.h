@@ -11,8 +11,9 @@
 #include "render/kern/gather.h"
 #include "render/kern/voxels.h"
 
-/* Random numbers of a vertex. */
-enum { DRAW_FLIGHT, DRAW_CLASS, DRAW_SHADOW, DRAW_ANGLE, DRAW_PLACE, DRAW_AZIMUTH, DRAW_ROULETTE, DRAW_LIGHT, DRAW_LIGHT_1, DRAW_LIGHT_2 };
+/* Random numbers of a vertex. Even ones come first; an alias table tears apart what is even, so its numbers are not. */
+enum { DRAW_FLIGHT, DRAW_AZIMUTH, DRAW_COSINE, DRAW_LIGHT, DRAW_LIGHT_1, DRAW_LIGHT_2,
+       DRAW_CLASS, DRAW_SHADOW, DRAW_SHADOWED, DRAW_ANGLE, DRAW_PLACE, DRAW_ROULETTE };
 
 /* Through one medium of the mean extinction nothing needs steps: no lane ever waits for another one, and what concerns a vertex
  * alone need not be kept for lanes that do. */

@@ -101,7 +101,9 @@ FN void path_begin(const struct scene *s, struct path *p, mv m, iv pixel, iv col
 {
 	struct random random = random_of(s->seed, unsigned_of(pixel), unsigned_of(sample));
 	SET(m, p->random.key, random.key);
+	SET(m, p->random.shift, random.shift);
 	SET(m, p->random.counter, random.counter);
+	SET(m, p->random.lattice, random.lattice);
 	fv x = (to_float(column) + draw(&p->random, DRAW_PIXEL_X)) * (2.f / (float)s->width) - 1.f;
 	fv y = 1.f - (to_float(row) + draw(&p->random, DRAW_PIXEL_Y)) * (2.f / (float)s->height);
 	struct vec along = unit3(add(load3(s->forward), add(scale(load3(s->right), x), scale(load3(s->up), y))));
@@ -191,6 +193,14 @@ FN void path_light(const struct scene *s, const struct tables *t, struct path *p
 	mv extended = m & lt(FV(0.f), d.density);
 	if (any(extended))
 		SET(extended, k, 1.f / (d.density + chance));
+	if (LANES_WAIT) {          /* a march is long: where less is scattered than evenly, it is made as seldom, and counts the more */
+		fv scattered = FV(0.f);
+		EACH_WAVE(j)
+			scattered = most(scattered, value[j] * p->weight[j]);
+		fv q = least(FV(1.f), scattered * (1.f / ISOTROPIC));
+		d.shines &= lt(draw(&p->random, DRAW_SHADOWED), q);
+		k *= 1.f / most(q, FV(1e-20f));
+	}
 	EACH_WAVE(j)
 		PUT(m, p->lit[j], SEL(d.shines, value[j] * k, FV(0.f)));
 	for (int i = 0; i < s->channels; i++)
@@ -258,7 +268,7 @@ FN mv path_depart(const struct scene *s, const struct tables *t, struct path *p,
 	struct vec axis = p->ray.along, along;
 	fv azimuth = 2.f * PI * draw(&p->random, DRAW_AZIMUTH);
 	if (s->isotropic) {
-		fv u = draw(&p->random, DRAW_ANGLE);
+		fv u = draw(&p->random, DRAW_COSINE);
 		cs = 1.f - 2.f * u;
 		sn = 2.f * root(u * (1.f - u));
 		EACH_WAVE(j)
@@ -269,7 +279,7 @@ FN mv path_depart(const struct scene *s, const struct tables *t, struct path *p,
 	}
 	fv chance = take_event(s, p, hit, value);
 	if (s->has_ground) {       /* cosine-distributed */
-		fv u = draw(&p->random, DRAW_ANGLE);
+		fv u = draw(&p->random, DRAW_COSINE);
 		SET(ground, sn, root(u));
 		SET(ground, cs, root(1.f - u));
 		SET(ground, chance, cs / PI);

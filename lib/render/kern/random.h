@@ -1,14 +1,21 @@
 /* random - counter-based random numbers: a hash of seed, pixel, sample and dimension, so that a sample's numbers do not depend on
- * what was computed before it. */
+ * what was computed before it.
+ *
+ * Where an integrand is smooth, numbers that fill space evenly do better than independent ones: the samples of a pixel are points of an
+ * extensible Korobov lattice (Hickernell, Hong, L'Ecuyer and Lemieux 2000), in the order of their reversed bits, moved in every
+ * dimension by a random shift of the pixel's. Each sample is uniform, so that any of them give the right mean. */
 #ifndef KERN_RANDOM_H
 #define KERN_RANDOM_H
 
 #include "render/kern/lane.h"
 
 #define DIMENSIONS 16    /* drawn at a vertex, at most */
+#define EVEN 6           /* of them, the first ones, from the lattice */
 
 struct random {
-	uv key, counter;
+	uv key, shift;             /* of the sample, of the pixel */
+	uv counter;                /* of the vertex */
+	uv lattice;                /* the sample's point in the vertex's first dimension */
 };
 
 FN uv mix(uv x, uv key)
@@ -21,19 +28,47 @@ FN uv mix(uv x, uv key)
 	return x ^ x >> 16;
 }
 
+FN uv reversed(uv x)
+{
+	x = (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
+	x = (x & 0x33333333u) << 2 | (x >> 2 & 0x33333333u);
+	x = (x & 0x0f0f0f0fu) << 4 | (x >> 4 & 0x0f0f0f0fu);
+	x = (x & 0x00ff00ffu) << 8 | (x >> 8 & 0x00ff00ffu);
+	return x << 16 | x >> 16;
+}
+
 FN struct random random_of(uint32 seed, uv pixel, uv sample)
 {
 	struct random r;
-	uv a = mix(pixel + 0x9e3779b9u, UV(seed * 0x9e3779b1u ^ 0x85ebca6bu));
-	r.key = mix(sample + 0x7f4a7c15u, a);
-	r.counter = mix(a ^ 0x2545f491u, r.key);
+	r.shift = mix(pixel + 0x9e3779b9u, UV(seed * 0x9e3779b1u ^ 0x85ebca6bu));
+	r.key = mix(sample + 0x7f4a7c15u, r.shift);
+	r.counter = mix(r.shift ^ 0x2545f491u, r.shift);
+	r.lattice = reversed(sample);
 	return r;
 }
 
+/* The lattice's generator 17797 to the power d < 7. */
+FN uint32 generator(int d)
+{
+	uint32 z = 1;
+	for (int k = 0; k < d; k++)
+		z *= 17797u;
+	return z;
+}
+
 /* Dimension d of the vertex at hand: 32 random bits, or a number in [0, 1) of 24 bits. */
-FN uv draw_bits(const struct random *r, int d) { return mix(r->counter + (uint32)d * 0x9e3779b9u, r->key); }
+FN uv draw_bits(const struct random *r, int d)
+{
+	uv x = r->counter + (uint32)d * 0x9e3779b9u;
+	return d < EVEN ? mix(x, r->shift) + r->lattice * generator(d) : mix(x, r->key);
+}
 FN fv unit_of(uv bits) { return to_float(signed_of(bits >> 8)) * 0x1p-24f; }
 FN fv draw(const struct random *r, int d) { return unit_of(draw_bits(r, d)); }
-FN void next_vertex(struct random *r, mv m) { r->counter = SEL(m, r->counter + DIMENSIONS * 0x9e3779b9u, r->counter); }
+
+FN void next_vertex(struct random *r, mv m)
+{
+	SET(m, r->counter, r->counter + DIMENSIONS * 0x9e3779b9u);
+	SET(m, r->lattice, r->lattice * generator(EVEN));
+}
 
 #endif
