@@ -22,14 +22,15 @@ CHECKS = $(patsubst tests/%.c,%,$(wildcard tests/*.c))
 GENERATED = materials kernels
 OBJECTS = $(patsubst lib/%.c,obj/%.o,$(filter-out lib/render/lanes.c,$(wildcard lib/*/*.c))) $(GENERATED:%=obj/gen/%.o) $(LANE_OBJECTS)
 
-# The renderer's kernels, for each processor, transport and number of wavelengths (0: any): LANES and the instructions for them.
+# The renderer's kernels, for each processor, transport and number of wavelengths (0: any; p: with a peak): LANES and the instructions.
 CPUS = scalar $(if $(filter x86_64,$(shell uname -m)),v2 v3 v4)
 LANES_scalar = -DLANES=1
 LANES_v2 = -DLANES=4 -march=x86-64-v2
 LANES_v3 = -DLANES=8 -march=x86-64-v3
 LANES_v4 = -DLANES=16 -march=x86-64-v4 -mprefer-vector-width=512
-LANE_OBJECTS = $(foreach cpu,$(CPUS),$(foreach t,0 1 2 3,$(foreach w,0 1 3,obj/render/lanes/$(cpu)_$(t)_$(w).o)))
-lane_flags = -g1 -Wno-unused-parameter $(LANES_$(word 1,$(1))) -DRENDER=render_$(subst $(space),_,$(1)) -DTRANSPORT=$(word 2,$(1)) $(filter-out -DWAVES=0,-DWAVES=$(word 3,$(1)))
+LANE_OBJECTS = $(foreach cpu,$(CPUS),$(foreach t,0 1 2 3,$(foreach w,0 1 3 1p 3p,obj/render/lanes/$(cpu)_$(t)_$(w).o)))
+lane_flags = -g1 -Wno-unused-parameter $(LANES_$(word 1,$(1))) -DRENDER=render_$(subst $(space),_,$(1)) -DTRANSPORT=$(word 2,$(1)) \
+	$(if $(filter-out 0,$(word 3,$(1))),-DWAVES=$(subst p,,$(word 3,$(1))) -DPEAK=$(if $(findstring p,$(word 3,$(1))),1,0))
 space = $(subst ,, )
 MAN = $(wildcard man/*.[1-9])
 

@@ -151,7 +151,8 @@ int main(void)
 		light_draw(&s, &t, ALL_LANES, i % 6, r.from, &random, &d);
 		if (any(d.shines)) {
 			r.along = d.along;
-			blocked += any(light_blocked(&s, r, &d));
+			far = surface_distance(&s, r, &which);
+			blocked += any(light_blocked(&d, which, far));
 			bad += !(d.density > 0.f && d.t_end > 0.f && d.t_end < 4.f);
 		}
 	}

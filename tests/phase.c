@@ -76,7 +76,7 @@ int main(void)
 	struct random r = random_of(1, 2, 3);
 	for (int k = 0; k < draws; k++) {
 		float sn, cs, value[CARRIED], again[CARRIED];
-		phase_draw(&scene, &t, ALL_LANES, 0, w, 0, draw_bits(&r, 0), draw_bits(&r, 1), &sn, &cs, value);
+		phase_draw(&scene, &t, ALL_LANES, 0, 0, w, 0, draw_bits(&r, 0), draw_bits(&r, 1), &sn, &cs, value);
 		double angle = atan2(sn, cs), length = (double)sn * sn + (double)cs * cs;
 		int i = 0;
 		for (int step = NODES / 2 + 1; step; step /= 2)

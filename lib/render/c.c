@@ -8,13 +8,14 @@
 
 #define CHUNK 256              /* pixels that a thread takes at a time */
 
-#define BUILDS_OF(cpu, transport) { render_##cpu##_##transport##_0, render_##cpu##_##transport##_1, render_##cpu##_##transport##_3 }
+#define BUILDS_OF(cpu, transport) { { render_##cpu##_##transport##_0, render_##cpu##_##transport##_1, render_##cpu##_##transport##_3 }, \
+	{ render_##cpu##_##transport##_0, render_##cpu##_##transport##_1p, render_##cpu##_##transport##_3p } }
 #define BUILDS(cpu) { BUILDS_OF(cpu, 0), BUILDS_OF(cpu, 1), BUILDS_OF(cpu, 2), BUILDS_OF(cpu, 3) }
 
 struct cpu {
 	const char *name;
 	int here;                  /* this processor can */
-	render_fn *build[4][3];    /* [transport][any, 1, 3 wavelengths] */
+	render_fn *build[4][2][3]; /* [transport][without, with a peak][any, 1, 3 wavelengths] */
 };
 
 static render_fn *build_for(const struct scene *s)
@@ -33,7 +34,7 @@ static render_fn *build_for(const struct scene *s)
 			continue;
 		if (!cpus[i].here)
 			die("MOTES_CPU", "this processor is no %s", asked);
-		return cpus[i].build[s->transport][s->n_waves == 1 ? 1 : s->n_waves == 3 ? 2 : 0];
+		return cpus[i].build[s->transport][s->peak > 0][s->n_waves == 1 ? 1 : s->n_waves == 3 ? 2 : 0];
 	}
 	die("MOTES_CPU", "'%s' is none of scalar, v2, v3, v4", asked);
 }

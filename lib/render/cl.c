@@ -9,7 +9,7 @@
 #include <string.h>
 
 #define CHUNKS_MAX 8           /* buffers of a large table */
-#define N_TABLES 16            /* the scene is one */
+#define N_TABLES 17            /* the scene is one */
 #define CPU_PIXELS 1024        /* of a work-item, at most: lanes run dry only at its end */
 #define CPU_SHARES 4           /* work-items for each compute unit, at least: none waits long for the last */
 #define GPU_GROUP 64
@@ -72,7 +72,7 @@ static void tables(struct job *j, struct table *out)
 	const struct tables *t = &j->tables;
 	const struct table table[N_TABLES] = {
 		{ &j->scene, sizeof j->scene / 4, 0 },
-		{ t->extinction, j->n_extinction, 0 }, { t->disc, j->n_disc, 0 }, { t->albedo, j->n_albedo, 0 },
+		{ t->extinction, j->n_extinction, 0 }, { t->disc, j->n_disc, 0 }, { t->albedo, j->n_albedo, 0 }, { t->cap, j->n_cap, 0 },
 		{ t->colour, j->n_colour, 0 }, { t->phase, j->n_phase, 0 }, { t->interval, j->n_interval, 1 }, { t->alias, j->n_alias, 1 },
 		{ t->angle, j->n_angle, 1 }, { t->particle, j->n_particle, 1 }, { t->first, j->n_first, 1 }, { t->brick, j->n_brick, 1 },
 		{ t->voxel, j->n_voxel, 1 }, { t->count, j->n_count, 1 }, { t->map, j->n_map, 1 }, { t->map_cdf, j->n_map_cdf, 1 },
@@ -116,8 +116,8 @@ static char *options_for(const struct cl *c, cl_device_id device, int chunks, in
 	if (chunks > 1)
 		snprintf(parts, sizeof parts, " -DCHUNK_SHIFT=%d", shift);
 	const char *exact = rounding & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT ? " -cl-fp32-correctly-rounded-divide-sqrt" : "";
-	return xtext("-cl-std=CL1.2%s -DLANES=%d -DTRANSPORT=%d%s -DCHUNKS=%d%s", exact, (int)c->lanes, s->transport, waves, chunks,
-	             parts);
+	return xtext("-cl-std=CL1.2%s -DLANES=%d -DTRANSPORT=%d%s -DPEAK=%d -DCHUNKS=%d%s", exact, (int)c->lanes, s->transport, waves,
+	             s->peak > 0, chunks, parts);
 }
 
 static void set(struct cl *c, cl_uint arg, size_t size, const void *value)

@@ -3,6 +3,7 @@
 #include "base/die.h"
 #include "render/colour.h"
 #include "render/kern/film.h"
+#include "render/peak.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -122,6 +123,12 @@ static void lights(struct job *j, const struct scenefile *f)
 		if (!dark)
 			s->n_drawn = s->n_lights;
 	}
+	/* what is drawn of a sun is at most its density's height or, by detours, 1 / (1 - share) of the cap: the lower is taken */
+	float highest = 0;
+	for (size_t w = 0; w < j->n_cap; w++)
+		highest = fmaxf(highest, j->tables.cap[w] / (1 - s->peak));
+	for (int i = 0; i < s->n_lights; i++)
+		s->light[i].small = s->light[i].kind == LIGHT_SUN && (s->light[i].cap == 0 || s->light[i].density > highest);
 	/* one channel will do where nothing has a colour */
 	s->channels = grey(s->environment) && !f->map.width && grey(j->tables.colour) && j->n_colour == 6 ? 1 : 3;
 	for (int i = 0; i < s->n_lights; i++)
@@ -133,7 +140,7 @@ static void lights(struct job *j, const struct scenefile *f)
 }
 
 /* Optics as the kernels want them: in m, by class and for the whole. */
-static void optics(struct job *j, const struct medium *m)
+static void optics(struct job *j, const struct medium *m, int suns)
 {
 	size_t waves = (size_t)m->n_waves, classes = (size_t)m->n_classes;
 	float *extinction = xalloc(waves, sizeof(float)), *disc = xalloc(classes * waves, sizeof(float));
@@ -167,13 +174,21 @@ static void optics(struct job *j, const struct medium *m)
 		}
 	}
 	free(rgb);
-	angles_make(&j->angles, m->n_classes + 1, m->n_waves, m->node, m->theta, m->p, m->cdf);
+	struct peak peak;
+	peak_make(&peak, m, suns ? j->scene.only_class : -1);
+	angles_make(&j->angles, peak.n_classes, m->n_waves, peak.range, peak.theta, peak.p, peak.cdf);
+	j->scene.peak = (float)peak.share;
+	j->scene.detours = peak.share > 0 ? (float)(-1 / log(peak.share)) : 0;
+	float *cap = peak.cap;
+	peak.cap = NULL;
+	peak_free(&peak);
 	const struct angles *g = &j->angles;
-	j->tables = (struct tables){ .extinction = extinction, .disc = disc, .albedo = albedo, .colour = colour, .phase = g->phase,
+	j->tables = (struct tables){ .extinction = extinction, .disc = disc, .albedo = albedo, .cap = cap, .colour = colour, .phase = g->phase,
 		.interval = g->interval, .alias = g->alias, .angle = g->angle, .particle = m->particle, .first = (const int *)m->first };
 	j->n_extinction = waves;
 	j->n_disc = classes * waves;
 	j->n_albedo = (classes + 1) * waves;
+	j->n_cap = waves;
 	j->n_colour = 6 * waves;
 	j->scene.isotropic = g->isotropic;
 	j->n_phase = g->n_phase;
@@ -233,17 +248,17 @@ void job_make(struct job *j, const struct scenefile *file, const struct medium *
 	s->seed = seed;
 	s->transport = transport;
 	s->attenuation = attenuation;
+	s->n_classes = medium->n_classes;
+	/* particles scatter by their class, everything else as the mixture */
+	s->only_class = s->transport == TRANSPORT_CONTINUOUS || !medium->n_particles ? medium->n_classes : medium->n_classes == 1 ? 0 : -1;
 	camera(s, file);
-	optics(j, medium);
+	optics(j, medium, file->n_suns > 0);
 	voxels(j, medium);
 	s->fat = cross_section(file, medium, s->largest);
 	lights(j, file);
 	s->n_waves = medium->n_waves;
 	s->n_groups = (medium->n_waves + MAX_WAVES - 1) / MAX_WAVES;
 	s->carried = (medium->n_waves + s->n_groups - 1) / s->n_groups;
-	s->n_classes = medium->n_classes;
-	/* particles scatter by their class, everything else as the mixture */
-	s->only_class = s->transport == TRANSPORT_CONTINUOUS || !medium->n_particles ? medium->n_classes : medium->n_classes == 1 ? 0 : -1;
 	s->round = medium->round;
 	for (int a = 0; a < 3; a++) {
 		s->extent[a] = (float)medium->half[a];
@@ -300,6 +315,7 @@ void job_free(struct job *j)
 	free((void *)(size_t)j->tables.extinction);
 	free((void *)(size_t)j->tables.disc);
 	free((void *)(size_t)j->tables.albedo);
+	free((void *)(size_t)j->tables.cap);
 	free((void *)(size_t)j->tables.colour);
 	free((void *)(size_t)j->tables.map_cdf);
 	angles_free(&j->angles);

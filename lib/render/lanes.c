@@ -1,4 +1,4 @@
-/* One build of the kernels: compiled many times, with RENDER the name, LANES, TRANSPORT and perhaps WAVES. */
+/* One build of the kernels: compiled many times, with RENDER the name, LANES, TRANSPORT, and perhaps WAVES and PEAK. */
 #include "render/kern/render.h"
 #include "render/lanes.h"
 

@@ -44,7 +44,7 @@ struct gather {
 #define BY_Z(g, a, b, c) SEL((g)->a_is_x, c, SEL((g)->a_is_y, b, a))
 
 /* Lanes m set out along r up to t_end. */
-FN void gather_begin(const struct scene *s, struct gather *g, mv m, struct ray r, fv t_end, int flight)
+FN void gather_begin(const struct scene *s, struct gather *g, mv m, struct ray r, fv t_end, mv flight)
 {
 	fv t0, t1;
 	clip_box(r, load3(s->grid_centre), load3(s->grid_reached), &t0, &t1);
@@ -60,7 +60,7 @@ FN void gather_begin(const struct scene *s, struct gather *g, mv m, struct ray r
 		SET(m, g->id[j], IV(NONE));
 		SET(m, g->through[j], FV(1.f));
 	}
-	SET_TRUTH(m, g->flight, lanes_if(flight));
+	SET_TRUTH(m, g->flight, flight);
 	const fv d[3] = { r.along.x, r.along.y, r.along.z }, at[3] = { entry.x, entry.y, entry.z };
 	const fv low[3] = { FV(s->grid_low[0]), FV(s->grid_low[1]), FV(s->grid_low[2]) };
 	const fv cell[3] = { FV(s->cell[0]), FV(s->cell[1]), FV(s->cell[2]) };

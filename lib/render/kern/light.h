@@ -137,7 +137,7 @@ struct drawn {
 	iv which;                  /* the surface that it is, or NONE */
 	fv density;                /* of drawing this light and this direction, sr^-1; 0: parallel light, that is never met */
 	fv rgb[3];                 /* radiance; of parallel light irradiance */
-	mv shines;
+	mv shines, sun, small;
 };
 
 /* Light i seen from the points of lanes m. */
@@ -146,7 +146,7 @@ FN void light_draw(const struct scene *s, const struct tables *t, mv m, int i, s
 {
 	const struct light *l = &s->light[i];
 	*d = (struct drawn){ load3(l->at), load3(l->inverse), FV(FAR), IV(NONE), FV(l->density * s->pick),
-		{ FV(l->rgb[0]), FV(l->rgb[1]), FV(l->rgb[2]) }, m };
+		{ FV(l->rgb[0]), FV(l->rgb[1]), FV(l->rgb[2]) }, m, l->kind == LIGHT_SUN ? m : NO_LANE, l->small ? m : NO_LANE };
 	if (l->kind == LIGHT_SUN && l->cap == 0.f)
 		return;
 	if (l->kind == LIGHT_QUAD) {
@@ -194,16 +194,16 @@ FN void some_light(const struct scene *s, const struct tables *t, mv m, struct v
 		for (int k = 0; k < 3; k++)
 			SET(own, d->rgb[k], other.rgb[k]);
 		d->shines |= other.shines;
+		d->sun |= other.sun;
+		d->small |= other.small;
 	}
 }
 
-/* Where a surface stands between a point and what was drawn from there. What lies on the light itself, as another quad at a
- * common edge, does not: hence the margin. */
-FN mv light_blocked(const struct scene *s, struct ray r, const struct drawn *d)
+/* Where a surface at distance t stands before what was drawn. What lies on the light itself, as another quad at a common edge, does
+ * not: hence the margin. */
+FN mv light_blocked(const struct drawn *d, iv surface, fv t)
 {
-	iv which;
-	fv t = surface_distance(s, r, &which);
-	return NOT(ieq(which, IV(NONE))) & NOT(ieq(which, d->which)) & lt(t, d->t_end * TIE);
+	return NOT(ieq(surface, IV(NONE))) & NOT(ieq(surface, d->which)) & lt(t, d->t_end * TIE);
 }
 
 /* The weight of a light met by a path whose direction has the density chance (0: from the camera, where none is drawn). */
@@ -217,11 +217,13 @@ FN void quad_seen(const struct scene *s, int i, struct ray r, fv t, fv chance, f
 		rgb[c] = s->light[i].rgb[c] * k;
 }
 
-/* Radiance of what lies behind everything: the environment, the map, and suns with a disc. */
-FN void sky_seen(const struct scene *s, const struct tables *t, mv m, struct vec along, fv chance, fv *rgb)
+/* Radiance of what lies behind everything: the environment, the map, suns with a disc; small ones apart. */
+FN void sky_seen(const struct scene *s, const struct tables *t, mv m, struct vec along, fv chance, fv *rgb, fv *suns)
 {
-	for (int c = 0; c < 3; c++)
+	for (int c = 0; c < 3; c++) {
 		rgb[c] = FV(s->environment[c]);
+		suns[c] = FV(0.f);
+	}
 	for (int i = 0; i < s->n_drawn; i++) {
 		const struct light *l = &s->light[i];
 		struct vec off = sub(along, load3(l->at));
@@ -237,7 +239,10 @@ FN void sky_seen(const struct scene *s, const struct tables *t, mv m, struct vec
 			continue;
 		}
 		for (int c = 0; c < 3; c++)
-			rgb[c] += own[c] * k;
+			if (l->small)
+				suns[c] += own[c] * k;
+			else
+				rgb[c] += own[c] * k;
 	}
 }
 

@@ -13,10 +13,9 @@
 
 /* Random numbers of a vertex. Even ones come first; an alias table tears apart what is even, so its numbers are not. */
 enum { DRAW_FLIGHT, DRAW_AZIMUTH, DRAW_COSINE, DRAW_LIGHT, DRAW_LIGHT_1, DRAW_LIGHT_2,
-       DRAW_CLASS, DRAW_SHADOW, DRAW_SHADOWED, DRAW_ANGLE, DRAW_PLACE, DRAW_ROULETTE };
+       DRAW_CLASS, DRAW_SHADOW, DRAW_SHADOWED, DRAW_ANGLE, DRAW_PLACE, DRAW_ROULETTE, DRAW_DETOUR };
 
-/* Through one medium of the mean extinction nothing needs steps: no lane ever waits for another one, and what concerns a vertex
- * alone need not be kept for lanes that do. */
+/* Through one medium of the mean extinction nothing needs steps. */
 struct bulk {
 	struct vec entry, along;
 	fv t0, length;             /* along the ray */
@@ -28,7 +27,9 @@ struct march {
 	struct bulk bulk;
 };
 
-#define LANES_WAIT (TRANSPORT != TRANSPORT_CONTINUOUS)
+/* Where rays take steps, or detours, lanes wait for each other, and what concerns a vertex must be kept for those that do. */
+#define MARCHES (TRANSPORT != TRANSPORT_CONTINUOUS)    /* a ray takes steps */
+#define LANES_WAIT (MARCHES || PEAK)
 #define PUT(m, place, value) ((place) = LANES_WAIT ? SEL(m, value, place) : (value))
 #define PUT3(m, place, value) ((place) = LANES_WAIT ? sel3(m, value, place) : (value))
 
@@ -39,29 +40,30 @@ FN mv marching(const struct scene *s, const struct march *g)
 	return AMONG_PARTICLES ? g->gather.going : TRANSPORT == TRANSPORT_GRID ? g->passage.going : NO_LANE;
 }
 
-/* Lanes m set out along r up to t_end, in flight or as shadow rays. */
-FN void march_begin(const struct scene *s, const struct tables *t, struct march *g, mv m, struct ray r, fv t_end, int flight,
+/* Lanes m set out along r up to t_end, in flight, or else as shadow rays. */
+FN void march_begin(const struct scene *s, const struct tables *t, struct march *g, mv m, struct ray r, fv t_end, mv flight,
                     struct waves w, iv hero, const struct random *random)
 {
 	if (AMONG_PARTICLES) {
 		gather_begin(s, &g->gather, m, r, t_end, flight);
 	} else if (TRANSPORT == TRANSPORT_GRID) {
-		fv target = flight ? free_path(draw_bits(random, DRAW_FLIGHT)) : SHADOW_DEPTH + free_path(draw_bits(random, DRAW_SHADOW));
+		fv target = free_path(SEL(flight, draw_bits(random, DRAW_FLIGHT), draw_bits(random, DRAW_SHADOW)));
+		target += SEL(flight, FV(0.f), FV(SHADOW_DEPTH));
 		if (!s->counted) {     /* in units of the integral of the density */
-			fv own = of_hero(s, t->extinction, m, w, hero);
-			if (!flight)
-				EACH_WAVE(j)
-					own = least(own, of_wave(s, t->extinction, 0, m, w, j));
+			fv own = of_hero(s, t->extinction, m, w, hero), thinnest = own;
+			EACH_WAVE(j)
+				thinnest = least(thinnest, of_wave(s, t->extinction, 0, m, w, j));
+			own = SEL(flight, own, thinnest);
 			target = SEL(lt(FV(0.f), own), target / own, FV(FAR));
 		}
 		passage_begin(s, &g->passage, m, r, t_end, flight, target);
 	} else {
 		fv t0, t1;
 		clip_medium(s, r, &t0, &t1);
-		g->bulk.entry = add(r.from, scale(r.along, t0));
-		g->bulk.along = r.along;
-		g->bulk.t0 = t0;
-		g->bulk.length = most(least(t1, t_end) - t0, FV(0.f));
+		PUT3(m, g->bulk.entry, add(r.from, scale(r.along, t0)));
+		PUT3(m, g->bulk.along, r.along);
+		PUT(m, g->bulk.t0, t0);
+		PUT(m, g->bulk.length, most(least(t1, t_end) - t0, FV(0.f)));
 	}
 }
 

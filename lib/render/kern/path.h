@@ -5,6 +5,14 @@
  * By the balance heuristic over heroes wavelength j then contributes weight[j] density[j] times what it sees: no wavelength is
  * favoured, and one whose own disc would not have been met has density 0 from there on.
  *
+ * Next-event estimation under a high forward peak gives spikes: p towards a sun is huge in the rare case that the path travels that
+ * way. So p is taken as what is below a cap and the peak above it. Of the scatterings of any path to a sun, one is the last below
+ * the cap, and those after it are peaks. At each vertex, what is below the cap is estimated as that last one: by a detour of n further
+ * scatterings by the peak, n being geometric, whose directions are drawn backwards from the sun and whose flights go forward.
+ * What is evaluated is then at most cap / (1 - peak). Paths that may have been scattered by peaks alone, from the camera on, are
+ * weighed by the share of their density that was: for them the sun is estimated by the peak at the vertex, and met by chance. A sun so
+ * large that multiple importance sampling bounds its spikes lower is left to that.
+ *
  * A vertex has two parts, since the paths of different lanes take marches of different lengths: path_arrive, when its flight has
  * ended, which scatters and sends out the shadow ray; path_depart, when that has ended, which takes the light in and sets out for
  * the next vertex. Between the parts a lane may wait for others; what it computes does not depend on that. */
@@ -31,6 +39,13 @@ struct path {
 	mv flying;
 	fv t_end;
 	iv surface;
+	/* from a vertex to a light by a detour */
+	mv detour;                 /* in flight on one */
+	iv left;                   /* scatterings by the peak, still to come */
+	struct vec sun;            /* to the light */
+	fv by_detour[CARRIED];     /* the path's density and the detour's, as density[] */
+	fv peaked[CARRIED];        /* the share of the path's density that peaks alone have */
+	struct random random_there;    /* of the march: the vertex's, or the detour's own */
 	/* the vertex */
 	struct vec point;
 	iv class, id;              /* class NONE is the ground */
@@ -80,19 +95,19 @@ FN void scattered(const struct scene *s, struct path *p, mv m, fv t)
 	SET(m, p->order, p->order + 1);
 }
 
-/* Take event[j] into the densities; returns their mean over the wavelengths, 0 if the path cannot be (it then ends). */
-FN fv take_event(const struct scene *s, struct path *p, mv m, const fv *event)
+/* Take event[j] into densities; returns their mean over the wavelengths, 0 if the path cannot be (it then ends). */
+FN fv take_event(const struct scene *s, struct waves w, fv *density, mv m, const fv *event)
 {
 	fv mean = FV(0.f), own[CARRIED];
 	if (CARRIED == 1)
 		return event[0];
 	EACH_WAVE(j) {
-		own[j] = p->density[j] * event[j];
+		own[j] = density[j] * event[j];
 		mean += own[j];
 	}
-	mean /= to_float(p->waves.n);
+	mean /= to_float(w.n);
 	EACH_WAVE(j)
-		SET(m, p->density[j], SEL(lt(FV(0.f), mean), own[j] / mean, FV(0.f)));
+		SET(m, density[j], SEL(lt(FV(0.f), mean), own[j] / mean, FV(0.f)));
 	return mean;
 }
 
@@ -100,10 +115,7 @@ FN fv take_event(const struct scene *s, struct path *p, mv m, const fv *event)
 FN void path_begin(const struct scene *s, struct path *p, mv m, iv pixel, iv column, iv row, iv sample)
 {
 	struct random random = random_of(s->seed, unsigned_of(pixel), unsigned_of(sample));
-	SET(m, p->random.key, random.key);
-	SET(m, p->random.shift, random.shift);
-	SET(m, p->random.counter, random.counter);
-	SET(m, p->random.lattice, random.lattice);
+	set_random(m, &p->random, random);
 	fv x = (to_float(column) + draw(&p->random, DRAW_PIXEL_X)) * (2.f / (float)s->width) - 1.f;
 	fv y = 1.f - (to_float(row) + draw(&p->random, DRAW_PIXEL_Y)) * (2.f / (float)s->height);
 	struct vec along = unit3(add(load3(s->forward), add(scale(load3(s->right), x), scale(load3(s->up), y))));
@@ -122,6 +134,7 @@ FN void path_begin(const struct scene *s, struct path *p, mv m, iv pixel, iv col
 		SET(m, p->weight[j], FV((float)s->n_groups));
 		SET(m, p->density[j], SEL(ilt(IV(j), p->waves.n), FV(1.f), FV(0.f)));
 		SET(m, p->spectrum[j], FV(0.f));
+		SET(m, p->peaked[j], FV(1.f));
 	}
 	SET(m, p->chance, FV(0.f));
 	SET(m, p->depth, FV(-1.f));
@@ -142,70 +155,170 @@ FN void path_fly(const struct scene *s, const struct tables *t, struct path *p, 
 	PUT(m, p->t_end, t_end);
 	PUT(m, p->surface, surface);
 	p->flying |= m;
-	march_begin(s, t, &p->march, m, p->ray, t_end, 1, p->waves, p->hero, &p->random);
+	if (LANES_WAIT)
+		set_random(m, &p->random_there, p->random);
+	march_begin(s, t, &p->march, m, p->ray, t_end, ALL_LANES, p->waves, p->hero, &p->random);
 }
 
 /* What ends paths m, which did not scatter: a quad, or what lies behind everything. */
 FN void see_end(const struct scene *s, const struct tables *t, struct path *p, mv m)
 {
-	fv rgb[3];
-	sky_seen(s, t, m, p->ray.along, p->chance, rgb);
+	fv rgb[3], suns[3];
+	sky_seen(s, t, m, p->ray.along, p->chance, rgb, suns);
 	for (int i = 0; i < s->n_lights; i++) {
 		mv own = m & ieq(p->surface, IV(i));
 		if (any(own)) {
 			fv quad[3];
 			quad_seen(s, i, p->ray, p->t_end, p->chance, quad);
-			for (int c = 0; c < 3; c++)
+			for (int c = 0; c < 3; c++) {
 				SET(own, rgb[c], quad[c]);
+				SET(own, suns[c], FV(0.f));
+			}
 		}
 	}
-	EACH_WAVE(j)
+	EACH_WAVE(j) {
 		see(s, t, p, m, j, DENSITY(p, j), rgb);
+		see(s, t, p, m, j, PEAK ? DENSITY(p, j) * p->peaked[j] : DENSITY(p, j), suns);
+	}
 }
 
-/* Next-event estimation at vertices m, before the shadow ray is known: lit, lamp, and the march to the light. */
+/* ------------------------------------------------------------------ detours */
+
+#define PEAK_CLASS (s->n_classes + 1)    /* its phase function is the peak */
+
+/* Random numbers of the k-th scattering of a detour, counted from the sun. */
+FN struct random detour_random(const struct path *p, iv k)
+{
+	struct random r = p->random;
+	r.key = r.shift = mix(unsigned_of(k) * 0x9e3779b1u, p->random.key ^ 0x2c1b3c6du);
+	r.lattice = UV(0);
+	return r;
+}
+
+/* Directions from which n scatterings by the peak turn to a sun; their density is taken into density[j]. */
+FN struct vec detour_direction(const struct scene *s, const struct tables *t, struct path *p, mv m, iv n, struct vec sun, fv *density)
+{
+	for (int k = 1; any(m &= NOT(ilt(n, IV(k)))); k++) {
+		struct random r = detour_random(p, IV(k));
+		fv sn, cs, value[CARRIED];
+		phase_draw(s, t, m, PEAK_CLASS, IV(0), p->waves, p->hero, draw_bits(&r, DRAW_ANGLE), draw_bits(&r, DRAW_PLACE), &sn, &cs, value);
+		take_event(s, p->waves, density, m, value);
+		set3(m, &sun, around(sun, sn, cs, 2.f * PI * draw(&r, DRAW_AZIMUTH)));
+	}
+	return sun;
+}
+
+/* The next march of detours m, from a point: a flight, or at last the shadow ray. Lanes whose light is blocked end. */
+FN void detour_on(const struct scene *s, const struct tables *t, struct path *p, mv m, struct ray r, fv t_end)
+{
+	mv flight = NO_LANE;
+	if (PEAK) {       /* else random_there is still the flight's that came here, of the same vertex */
+		struct random own = detour_random(p, -p->left);
+		flight = ilt(IV(0), p->left);
+		set_random(m, &p->random_there, p->random);
+		set_random(m & flight, &p->random_there, own);
+		SET_TRUTH(m, p->detour, flight);
+	}
+	march_begin(s, t, &p->march, m, r, t_end, flight, p->waves, p->hero, &p->random_there);
+}
+
+/* Flights of detours m have ended. */
+FN void detour_arrive(const struct scene *s, const struct tables *t, struct path *p, mv m)
+{
+	fv event[CARRIED], none[CARRIED];
+	struct collision c = flight_end(s, t, &p->march, m, p->waves, p->hero, &p->random_there, event);
+	fv mean = take_event(s, p->waves, p->by_detour, m, event);
+	mv hit = m & c.happened & lt(FV(0.f), mean);
+	p->detour &= NOT(m);
+	EACH_WAVE(j) {
+		fv albedo = of_class(s, t->albedo, hit, c.class, p->waves, j);
+		SET(m, p->lit[j], SEL(hit, p->lit[j] * albedo, FV(0.f)));
+		none[j] = FV(0.f);     /* densities of the directions were taken in at the vertex */
+	}
+	if (!any(hit))
+		return;
+	SET(hit, p->left, p->left - 1);
+	struct vec along = detour_direction(s, t, p, hit, p->left, p->sun, none);
+	struct ray r = { c.point, along, inverse3(along), c.id };
+	iv surface;
+	fv t_end = surface_distance(s, r, &surface);
+	mv blocked = hit & ieq(p->left, IV(0)) & NOT(ieq(surface, IV(NONE)));
+	EACH_WAVE(j)
+		SET(blocked, p->lit[j], FV(0.f));
+	detour_on(s, t, p, hit & NOT(blocked), r, t_end);
+}
+
+/* ------------------------------------------------------------------ vertices */
+
+/* Next-event estimation at vertices m, before the march to the light is known: lit, lamp, and that march. */
 FN void path_light(const struct scene *s, const struct tables *t, struct path *p, mv m)
 {
 	struct drawn d;
 	some_light(s, t, m, p->point, &p->random, &d);
-	struct ray r = { p->point, d.along, d.inverse, p->id };
-	mv ground = ieq(p->class, IV(NONE));
-	fv value[CARRIED], chance = FV(0.f);
+	mv ground = ieq(p->class, IV(NONE)), sunny = PEAK ? d.shines & d.small : NO_LANE;
+	struct vec along = d.along, inverse = d.inverse;
+	fv value[CARRIED], by_detour[CARRIED], chance = FV(0.f);
+	mv straight = ALL_LANES;
+	EACH_WAVE(j)
+		by_detour[j] = DENSITY(p, j);
+	if (PEAK)
+		SET(m, p->left, IV(0));
+	if (any(sunny)) {
+		fv u = draw(&p->random, DRAW_DETOUR) + 0x1p-25f;
+		SET(sunny, p->left, to_int(neglog(u) * s->detours));
+		straight = ieq(p->left, IV(0));
+		along = detour_direction(s, t, p, sunny, p->left, along, by_detour);
+		inverse = inverse3(along);
+		set3(sunny, &p->sun, d.along);
+	}
 	if (s->isotropic)
 		EACH_WAVE(j)
 			value[j] = FV(ISOTROPIC);
 	else
-		phase_value(s, t, d.shines & NOT(ground), p->class, angle_between(p->ray.along, d.along), p->waves, value);
+		phase_value(s, t, d.shines & NOT(ground), p->class, angle_between(p->ray.along, along), p->waves, value);
 	if (s->has_ground) {       /* on the side that the path comes from */
-		fv cosine = most(FV(0.f), SEL(lt(p->ray.along.y, FV(0.f)), d.along.y, -d.along.y));
+		fv cosine = most(FV(0.f), SEL(lt(p->ray.along.y, FV(0.f)), along.y, -along.y));
 		EACH_WAVE(j)
 			SET(ground, value[j], cosine / PI);
 		d.shines &= NOT(ground) | lt(FV(0.f), cosine);
 	}
-	d.shines &= NOT(light_blocked(s, r, &d));
-	EACH_WAVE(j) {
-		value[j] *= DENSITY(p, j);
-		chance += value[j];
-	}
+	/* straight to the light, unless by a detour */
+	struct ray r = { p->point, along, inverse, p->id };
+	iv surface;
+	fv t_end = surface_distance(s, r, &surface);
+	d.shines &= NOT(straight) | NOT(light_blocked(&d, surface, t_end));
+	EACH_WAVE(j)
+		chance += value[j] * DENSITY(p, j);
 	if (CARRIED > 1)
 		chance /= to_float(p->waves.n);
-	fv k = FV((float)s->n_drawn);    /* of parallel light */
+	fv k = FV((float)s->n_drawn), alone = k;    /* of parallel light */
 	mv extended = m & lt(FV(0.f), d.density);
-	if (any(extended))
+	if (any(extended)) {
 		SET(extended, k, 1.f / (d.density + chance));
-	if (LANES_WAIT) {          /* a march is long: where less is scattered than evenly, it is made as seldom, and counts the more */
-		fv scattered = FV(0.f);
-		EACH_WAVE(j)
-			scattered = most(scattered, value[j] * p->weight[j]);
-		fv q = least(FV(1.f), scattered * (1.f / ISOTROPIC));
-		d.shines &= lt(draw(&p->random, DRAW_SHADOWED), q);
-		k *= 1.f / most(q, FV(1e-20f));
+		SET(extended, alone, 1.f / d.density);
 	}
-	EACH_WAVE(j)
-		PUT(m, p->lit[j], SEL(d.shines, value[j] * k, FV(0.f)));
+	fv scattered = FV(0.f);
+	EACH_WAVE(j) {
+		fv lit = value[j] * k, density = DENSITY(p, j);
+		if (PEAK) {
+			fv low = SEL(ground, value[j], least(value[j], of_wave(s, t->cap, 0, m, p->waves, j)));
+			fv high = SEL(straight, (value[j] - low) * p->peaked[j] * k, FV(0.f));
+			lit = SEL(sunny, (low * alone + high) * (1.f / (1.f - s->peak)), lit);
+			density = by_detour[j];
+			SET(m, p->by_detour[j], density);
+		}
+		PUT(m, p->lit[j], SEL(d.shines, lit, FV(0.f)));
+		scattered = most(scattered, lit * density / alone);
+	}
 	for (int i = 0; i < s->channels; i++)
 		PUT(m, p->lamp[i], d.rgb[i]);
-	march_begin(s, t, &p->march, d.shines, r, d.t_end, 0, p->waves, p->hero, &p->random);
+	if (MARCHES || PEAK) {     /* a march to a sun is long: where less is scattered than evenly, it is made as seldom, and counts the more */
+		fv q = SEL(d.sun, least(FV(1.f), scattered * (1.f / ISOTROPIC)), FV(1.f));
+		d.shines &= lt(draw(&p->random, DRAW_SHADOWED), q);
+		EACH_WAVE(j)
+			SET(m, p->lit[j], SEL(d.shines, p->lit[j] * (1.f / most(q, FV(1e-20f))), FV(0.f)));
+	}
+	detour_on(s, t, p, d.shines, r, SEL(straight, d.t_end, t_end));
 }
 
 /* Flights of lanes m have ended. Returns the lanes whose path is over. */
@@ -213,7 +326,7 @@ FN mv path_arrive(const struct scene *s, const struct tables *t, struct path *p,
 {
 	fv event[CARRIED];
 	struct collision c = flight_end(s, t, &p->march, m, p->waves, p->hero, &p->random, event);
-	mv alive = m & lt(FV(0.f), take_event(s, p, m, event));
+	mv alive = m & lt(FV(0.f), take_event(s, p->waves, p->density, m, event));
 	mv hit = alive & c.happened, ground = alive & NOT(c.happened) & ieq(p->surface, IV(GROUND)), out = alive & NOT(hit | ground);
 	mv over = m & NOT(hit | ground);
 	p->flying &= NOT(m);
@@ -261,8 +374,10 @@ FN mv path_depart(const struct scene *s, const struct tables *t, struct path *p,
 	fv through[CARRIED], value[CARRIED], sn, cs;
 	if (s->n_drawn) {
 		shadow_end(s, t, &p->march, m, p->waves, through);
-		EACH_WAVE(j)
-			see(s, t, p, m & lt(FV(0.f), p->lit[j]), j, p->lit[j] * through[j], p->lamp);
+		EACH_WAVE(j) {
+			fv lit = p->lit[j] * (PEAK ? CARRIED > 1 ? p->by_detour[j] : FV(1.f) : DENSITY(p, j));
+			see(s, t, p, m & lt(FV(0.f), lit), j, lit * through[j], p->lamp);
+		}
 	}
 	mv on = survives(s, p, m), ground = s->has_ground ? on & ieq(p->class, IV(NONE)) : NO_LANE, hit = on & NOT(ground);
 	struct vec axis = p->ray.along, along;
@@ -274,10 +389,15 @@ FN mv path_depart(const struct scene *s, const struct tables *t, struct path *p,
 		EACH_WAVE(j)
 			value[j] = FV(ISOTROPIC);
 	} else {
-		phase_draw(s, t, hit, p->class, p->waves, p->hero, draw_bits(&p->random, DRAW_ANGLE), draw_bits(&p->random, DRAW_PLACE), &sn, &cs,
+		phase_draw(s, t, hit, s->only_class, p->class, p->waves, p->hero, draw_bits(&p->random, DRAW_ANGLE), draw_bits(&p->random, DRAW_PLACE), &sn, &cs,
 		           value);
 	}
-	fv chance = take_event(s, p, hit, value);
+	fv chance = take_event(s, p->waves, p->density, hit, value);
+	if (PEAK)
+		EACH_WAVE(j) {
+			fv high = most(FV(0.f), value[j] - of_wave(s, t->cap, 0, m, p->waves, j));
+			SET(on, p->peaked[j], SEL(hit & lt(FV(0.f), high), p->peaked[j] * high / value[j], FV(0.f)));
+		}
 	if (s->has_ground) {       /* cosine-distributed */
 		fv u = draw(&p->random, DRAW_COSINE);
 		SET(ground, sn, root(u));

@@ -18,9 +18,10 @@ struct interval {
 	fv p[CARRIED], slope[CARRIED];    /* p(theta + t) = p + slope t */
 };
 
-FN iv phase_row(const struct scene *s, const struct tables *t, mv m, iv class, int k)
+/* An entry of a class's row; only: the class of all lanes, or -1. */
+FN iv phase_row(const struct tables *t, mv m, int only, iv class, int k)
 {
-	return s->only_class >= 0 ? IV(int_at(t->phase, PHASE_ROW * s->only_class + k)) : igather(m, t->phase, PHASE_ROW * class + k);
+	return only >= 0 ? IV(int_at(t->phase, PHASE_ROW * only + k)) : igather(m, t->phase, PHASE_ROW * class + k);
 }
 
 #define INTERVAL_ROW(waves) (4 + 2 * (waves))
@@ -54,7 +55,7 @@ FN void interval_load(const struct scene *s, const struct tables *t, mv m, iv i,
 FN void phase_value(const struct scene *s, const struct tables *t, mv m, iv class, fv theta, struct waves w, fv *value)
 {
 	fv place = theta * ((float)ANGLE_STEPS / PI);
-	iv step = ileast(to_int(place), IV(ANGLE_STEPS - 1)), row = phase_row(s, t, m, class, PHASE_STEP) + 2 * step;
+	iv step = ileast(to_int(place), IV(ANGLE_STEPS - 1)), row = phase_row(t, m, s->only_class, class, PHASE_STEP) + 2 * step;
 	iv parts[2], at[2];        /* the first part and their number; the interval where a part begins, and where the next one does */
 	igather2(m, t->angle, row, parts);
 	iv part = ileast(to_int((place - to_float(step)) * to_float(parts[1])), parts[1] - 1);
@@ -77,15 +78,15 @@ FN void phase_value(const struct scene *s, const struct tables *t, mv m, iv clas
  * probability, the place in it by inverting the integral of (linear p) x sin, sin being a cubic over an interval (at most 1 degree:
  * relative error 4e-9), with one step of Newton, which is enough for intervals as angles.c makes them: within 1e-5 of their width.
  * value[j]: p there in sr^-1. Returns the interval. */
-FN iv phase_draw(const struct scene *s, const struct tables *t, mv m, iv class, struct waves w, iv hero, uv u, uv v, fv *sine, fv *cosine,
+FN iv phase_draw(const struct scene *s, const struct tables *t, mv m, int only, iv class, struct waves w, iv hero, uv u, uv v, fv *sine, fv *cosine,
                  fv *value)
 {
-	iv shift = phase_row(s, t, m, class, PHASE_SHIFT);
+	iv shift = phase_row(t, m, only, class, PHASE_SHIFT);
 	uv column = u >> unsigned_of(shift), rest = u - (column << unsigned_of(shift));
-	iv entry = 2 * ((phase_row(s, t, m, class, PHASE_COLUMN) + signed_of(column)) * s->n_waves + hero_of(s, w, hero));
+	iv entry = 2 * ((phase_row(t, m, only, class, PHASE_COLUMN) + signed_of(column)) * s->n_waves + hero_of(s, w, hero));
 	iv alias[2];
 	igather2(m, t->alias, entry, alias);
-	iv at = phase_row(s, t, m, class, PHASE_INTERVAL) + SEL(ilt(signed_of(rest), alias[0]), signed_of(column), alias[1]);
+	iv at = phase_row(t, m, only, class, PHASE_INTERVAL) + SEL(ilt(signed_of(rest), alias[0]), signed_of(column), alias[1]);
 	struct interval i;
 	interval_load(s, t, m, at, w, &i);
 	fv sn = i.sine, cs = i.cosine, h = i.width, p = hero_among(s, i.p, hero), d = hero_among(s, i.slope, hero) * h;

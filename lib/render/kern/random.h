@@ -47,6 +47,14 @@ FN struct random random_of(uint32 seed, uv pixel, uv sample)
 	return r;
 }
 
+FN void set_random(mv m, struct random *r, struct random value)
+{
+	SET(m, r->key, value.key);
+	SET(m, r->shift, value.shift);
+	SET(m, r->counter, value.counter);
+	SET(m, r->lattice, value.lattice);
+}
+
 /* The lattice's generator 17797 to the power d < 7. */
 FN uint32 generator(int d)
 {

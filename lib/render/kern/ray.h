@@ -8,9 +8,13 @@
 #define FAR 3e38f
 #define NONE (-1)
 
-/* A build for one transport or number of wavelengths gives them as constants; here, as they are in the scene. */
+/* A build for one transport, number of wavelengths, or for phase functions with or without a peak gives them as constants; here, as
+ * they are in the scene. */
 #ifndef TRANSPORT
 #define TRANSPORT (s->transport)
+#endif
+#ifndef PEAK
+#define PEAK (s->peak > 0.f)
 #endif
 #ifdef WAVES
 #define CARRIED WAVES

@@ -56,9 +56,12 @@ FN void render_pixels(const struct scene *s, const struct tables *t, GLOBAL int6
 		live |= fresh;
 		path_fly(s, t, &p, fresh | leaving);
 		while (any(marching(s, &p.march)) && count(live & NOT(marching(s, &p.march))) < VERTEX_WAIT)
-			march_on(s, t, &p.march, p.waves, p.hero, &p.random);
-		mv ended = path_arrive(s, t, &p, live & p.flying & NOT(marching(s, &p.march)));
-		leaving = live & NOT(p.flying | marching(s, &p.march) | ended);
+			march_on(s, t, &p.march, p.waves, p.hero, &p.random_there);
+		mv here = live & NOT(marching(s, &p.march)), by_detour = PEAK ? here & p.detour : NO_LANE;
+		mv ended = path_arrive(s, t, &p, here & p.flying);
+		if (any(by_detour))
+			detour_arrive(s, t, &p, by_detour);
+		leaving = live & NOT(p.flying | marching(s, &p.march) | ended | (PEAK ? p.detour : NO_LANE));
 		ended |= path_depart(s, t, &p, leaving);
 		leaving &= NOT(ended);
 		live &= NOT(ended);

@@ -18,6 +18,7 @@ struct light {
 	float rgb[3];              /* radiance, of a parallel sun irradiance; a map has its own */
 	float at[3];               /* sun: unit vector to its centre; quad: corner */
 	float inverse[3];          /* sun: 1 / at */
+	int small;                 /* sun: so small that a peak makes spikes of it, see path.h */
 	float cap;                 /* sun: 1 - cos of its angular radius; 0: parallel */
 	float density;             /* sun: of the directions drawn over the disc, sr^-1; quad: of its points, m^-2 */
 	float edge[2][3];          /* quad: from the corner */
@@ -36,6 +37,8 @@ struct scene {
 	int n_classes;             /* class n_classes is the mixture of the whole medium */
 	int only_class;            /* that scatters, or -1 where there are several */
 	int isotropic;             /* all phase functions are 1 / (4 pi) */
+	float peak;                /* share of scattering that is above the cap of a peaked phase function, 0: there is no peak */
+	float detours;             /* 1 / -log(peak) */
 	int round;                 /* the medium fills a sphere of radius extent[0], else a box */
 	float extent[3];
 	float largest, largest_inverse;       /* the largest disc: its squared radius, m^2; and 1 / that */
@@ -67,6 +70,7 @@ struct tables {
 	FLOATS extinction;  /* [wave] m^-1, of the whole medium; for a density grid, where it is 1 */
 	FLOATS disc;        /* [class][wave] squared radius of the disc of area c_ext, m^2 */
 	FLOATS albedo;      /* [class][wave] */
+	FLOATS cap;         /* [wave] sr^-1, of the phase function where it has a peak, see path.h; the peak is class n_classes + 1 */
 	FLOATS colour;      /* [wave][6] linear RGB of radiance 1; the shares of a light's R, G and B in it */
 	INTS phase;         /* [class][4] where its phase function stands in the next three, see phase.h */
 	FLOATS interval;    /* [interval][4 + 2 wave] sin, cos, theta, width; for each wavelength p in sr^-1 and its slope */

@@ -35,7 +35,7 @@ struct passage {
 	fv at[3], d[3], inverse[3], up[3], cell[3];
 };
 
-FN void passage_begin(const struct scene *s, struct passage *g, mv m, struct ray r, fv t_end, int flight, fv target)
+FN void passage_begin(const struct scene *s, struct passage *g, mv m, struct ray r, fv t_end, mv flight, fv target)
 {
 	fv t0, t1;
 	clip_medium(s, r, &t0, &t1);
@@ -60,7 +60,7 @@ FN void passage_begin(const struct scene *s, struct passage *g, mv m, struct ray
 	SET(m, g->target, target);
 	EACH_WAVE(j)
 		SET(m, g->depth[j], FV(0.f));
-	SET_TRUTH(m, g->flight, lanes_if(flight));
+	SET_TRUTH(m, g->flight, flight);
 	SET_TRUTH(m, g->reached, NO_LANE);
 	SET_TRUTH(m, g->going, lt(FV(0.f), t1));
 }
