@@ -153,7 +153,7 @@ ground='ground = { height = 0.0; albedo = 0.8; };'
 # lit NAME WANT LIGHTS [HEIGHT]: radiance of the ground at the origin, from a camera at that height
 lit() {
 	echo "camera = { position = [3.0, ${4:-2.0}, 5.0]; target = [0.0, 0.0, 0.0]; fov = 0.0005; resolution = [16, 16]; };
-		medium = { file = \"hg.medium\"; position = [0.0, 0.0, 1e4]; }; $ground lights = ( $3 );" >lit.scene
+		medium = { file = \"hg.medium\"; position = [0.0, 0.0, 1e3]; }; $ground lights = ( $3 );" >lit.scene
 	pair lit.scene 1024 continuous
 	agree "$1" "$2" "$(awk -v w="$2" 'BEGIN { print w * 1e-5 }')" "$(awk -v w="$2" 'BEGIN { print w * 2e-3 }')" pair1.exr pair2.exr
 }

@@ -46,7 +46,8 @@ psd gamma --effective-radius 6um --effective-variance 0.11111111111 --min 0.4um 
 cube c1.medium 6000000 0.999 c1.phase
 scene c1.scene c1.medium 128 "$lights"
 for s in 1 2; do vrender c1.scene --samples 1200 --seed $s -o c1$s.exr; done
-agree 'cube of extinction 6, albedo 0.999, Deirmendjian C1' 0.2837 0.0003 5e-4 c11.exr c12.exr
+# the two programs' table, linear in the cosine, has 0.17 % more in the forward peak than ours: 0.0003 on top of their 0.0003
+agree 'cube of extinction 6, albedo 0.999, Deirmendjian C1' 0.2837 0.0006 5e-4 c11.exr c12.exr
 
 # ---- Beer and Lambert: black particles, seen against radiance 1 through the middle of the cube (optical depth 2)
 

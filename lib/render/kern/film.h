@@ -69,10 +69,16 @@ FN mv film_values(const struct scene *s, struct path *p, mv m, fv *value)
 	for (int c = 0; c < s->channels; c++) {
 		/* what was seen last belongs to the order that the path ended in */
 		fv last = p->rgb[c], none = p->before[0][c], once = p->before[1][c];
-		bad |= film_clamp(m, &last) | film_clamp(m, &none) | film_clamp(m, &once);
-		value[SUM_OF(SUM_ALL, c)] = SEL(scattered, none, last);
-		value[SUM_OF(SUM_SINGLE, c)] = SEL(often, once, SEL(scattered, last, zero));
-		value[SUM_OF(SUM_MULTIPLE, c)] = SEL(often, last, zero);
+		fv single = SEL(often, once, SEL(scattered, last, zero)), more = SEL(often, last, zero);
+		none = SEL(scattered, none, last);
+		if (PEAK) {
+			single += p->detoured[0][c];
+			more += p->detoured[1][c];
+		}
+		bad |= film_clamp(m, &none) | film_clamp(m, &single) | film_clamp(m, &more);
+		value[SUM_OF(SUM_ALL, c)] = none;
+		value[SUM_OF(SUM_SINGLE, c)] = single;
+		value[SUM_OF(SUM_MULTIPLE, c)] = more;
 		all[c] = value[SUM_OF(SUM_ALL, c)] + value[SUM_OF(SUM_SINGLE, c)] + value[SUM_OF(SUM_MULTIPLE, c)];
 	}
 	mv seen = le(zero, p->depth);    /* wavelengths of smaller groups are heroes more often */

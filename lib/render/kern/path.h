@@ -32,6 +32,7 @@ struct path {
 	fv rgb[3];                 /* seen since the medium last scattered the path */
 	iv order;                  /* times that it did, from 2 on 2; reflections by surfaces do not count */
 	fv before[2][3];           /* what was seen unscattered, and scattered once, of an order that is over */
+	fv detoured[2][3];         /* what came by detours, scattered once and more often on the whole */
 	fv depth;                  /* along the camera's ray to where the medium scattered it, -1 if it did not */
 	fv spectrum[CARRIED];      /* all that was seen, by wavelength; kept for spectral images */
 	/* on the way: in flight to a surface or beyond, or from a vertex to a light */
@@ -41,7 +42,7 @@ struct path {
 	iv surface;
 	/* from a vertex to a light by a detour */
 	mv detour;                 /* in flight on one */
-	iv left;                   /* scatterings by the peak, still to come */
+	iv turns, left;            /* its scatterings by the peak, in all and still to come */
 	struct vec sun;            /* to the light */
 	fv by_detour[CARRIED];     /* the path's density and the detour's, as density[] */
 	fv peaked[CARRIED];        /* the share of the path's density that peaks alone have */
@@ -59,9 +60,9 @@ enum { DRAW_PIXEL_X, DRAW_PIXEL_Y, DRAW_HERO };
 /* Of one wavelength the density is its own mean. */
 #define DENSITY(p, j) (CARRIED == 1 ? FV(1.f) : (p)->density[j])
 
-/* Wavelengths of lanes m see k rgb[]. A light's colour multiplies the film's channels, so that it is seen as it is, whatever the
- * wavelengths; the wavelength itself sees the mean of the light's channels that its own colour gives. */
-FN void see(const struct scene *s, const struct tables *t, struct path *p, mv m, int j, fv k, const fv *rgb)
+/* Wavelengths of lanes m see k rgb[], which is added to into[]. A light's colour multiplies the film's channels, so that it is seen as
+ * it is, whatever the wavelengths; the wavelength itself sees the mean of the light's channels that its own colour gives. */
+FN void see_into(const struct scene *s, const struct tables *t, struct path *p, mv m, int j, fv k, const fv *rgb, fv *into)
 {
 	fv seen = p->weight[j] * k;
 	for (int i = 0; i < s->channels; i++) {
@@ -72,10 +73,15 @@ FN void see(const struct scene *s, const struct tables *t, struct path *p, mv m,
 		fv c = gather(m, t->colour, row), share = gather(m, t->colour, row + 3);
 #endif
 		fv add = SEL(m, seen * rgb[i], FV(0.f));
-		p->rgb[i] += c * add;
+		into[i] += c * add;
 		if (s->spectral)       /* all three shares, of one channel */
 			p->spectrum[j] += s->channels == 1 ? add : share * add;
 	}
+}
+
+FN void see(const struct scene *s, const struct tables *t, struct path *p, mv m, int j, fv k, const fv *rgb)
+{
+	see_into(s, t, p, m, j, k, rgb, p->rgb);
 }
 
 /* The medium scatters paths m at distance t: what they see from here on belongs to the next order. */
@@ -143,6 +149,8 @@ FN void path_begin(const struct scene *s, struct path *p, mv m, iv pixel, iv col
 		SET(m, p->rgb[i], FV(0.f));
 		SET(m, p->before[0][i], FV(0.f));
 		SET(m, p->before[1][i], FV(0.f));
+		SET(m, p->detoured[0][i], FV(0.f));
+		SET(m, p->detoured[1][i], FV(0.f));
 	}
 	next_vertex(&p->random, m);
 }
@@ -261,11 +269,14 @@ FN void path_light(const struct scene *s, const struct tables *t, struct path *p
 	mv straight = ALL_LANES;
 	EACH_WAVE(j)
 		by_detour[j] = DENSITY(p, j);
-	if (PEAK)
+	if (PEAK) {
 		SET(m, p->left, IV(0));
+		SET(m, p->turns, IV(0));
+	}
 	if (any(sunny)) {
 		fv u = draw(&p->random, DRAW_DETOUR) + 0x1p-25f;
 		SET(sunny, p->left, to_int(neglog(u) * s->detours));
+		SET(sunny, p->turns, p->left);
 		straight = ieq(p->left, IV(0));
 		along = detour_direction(s, t, p, sunny, p->left, along, by_detour);
 		inverse = inverse3(along);
@@ -313,7 +324,7 @@ FN void path_light(const struct scene *s, const struct tables *t, struct path *p
 	for (int i = 0; i < s->channels; i++)
 		PUT(m, p->lamp[i], d.rgb[i]);
 	if (MARCHES || PEAK) {     /* a march to a sun is long: where less is scattered than evenly, it is made as seldom, and counts the more */
-		fv q = SEL(d.sun, least(FV(1.f), scattered * (1.f / ISOTROPIC)), FV(1.f));
+		fv q = SEL(d.sun & NOT(ground), least(FV(1.f), scattered * (1.f / ISOTROPIC)), FV(1.f));
 		d.shines &= lt(draw(&p->random, DRAW_SHADOWED), q);
 		EACH_WAVE(j)
 			SET(m, p->lit[j], SEL(d.shines, p->lit[j] * (1.f / most(q, FV(1e-20f))), FV(0.f)));
@@ -376,7 +387,13 @@ FN mv path_depart(const struct scene *s, const struct tables *t, struct path *p,
 		shadow_end(s, t, &p->march, m, p->waves, through);
 		EACH_WAVE(j) {
 			fv lit = p->lit[j] * (PEAK ? CARRIED > 1 ? p->by_detour[j] : FV(1.f) : DENSITY(p, j));
-			see(s, t, p, m & lt(FV(0.f), lit), j, lit * through[j], p->lamp);
+			mv lighted = m & lt(FV(0.f), lit), straight = PEAK ? lighted & ieq(p->turns, IV(0)) : lighted, once;
+			see(s, t, p, straight, j, lit * through[j], p->lamp);
+			if (!PEAK || !any(lighted & NOT(straight)))
+				continue;
+			once = ieq(p->order + p->turns, IV(1));
+			see_into(s, t, p, lighted & NOT(straight) & once, j, lit * through[j], p->lamp, p->detoured[0]);
+			see_into(s, t, p, lighted & NOT(straight | once), j, lit * through[j], p->lamp, p->detoured[1]);
 		}
 	}
 	mv on = survives(s, p, m), ground = s->has_ground ? on & ieq(p->class, IV(NONE)) : NO_LANE, hit = on & NOT(ground);
