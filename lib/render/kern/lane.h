@@ -283,11 +283,9 @@ FN void igather2(mv m, const int *p, iv i, iv *out)
 #endif
 
 /* ------------------------------------------------------------------ for both */
-FN mv lanes_if(int yes) { return yes ? ALL_LANES : NO_LANE; }
 FN fv least(fv a, fv b) { return SEL(lt(a, b), a, b); }
 FN fv most(fv a, fv b) { return SEL(lt(b, a), a, b); }
 FN iv ileast(iv a, iv b) { return SEL(ilt(a, b), a, b); }
-FN iv imost(iv a, iv b) { return SEL(ilt(b, a), a, b); }
 
 /* Change the lanes m of a variable. */
 #define SET(m, place, value) ((place) = SEL(m, value, place))

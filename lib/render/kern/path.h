@@ -9,7 +9,7 @@
  * way. So p is taken as what is below a cap and the peak above it. Of the scatterings of any path to a sun, one is the last below
  * the cap, and those after it are peaks. At each vertex, what is below the cap is estimated as that last one: by a detour of n further
  * scatterings by the peak, n being geometric, whose directions are drawn backwards from the sun and whose flights go forward.
- * What is evaluated is then at most cap / (1 - peak). Paths that may have been scattered by peaks alone, from the camera on, are
+ * What is evaluated is then at most cap / (1 - peak). Paths that may have been scattered by peaks alone, from the camera or the ground on, are
  * weighed by the share of their density that was: for them the sun is estimated by the peak at the vertex, and met by chance. A sun so
  * large that multiple importance sampling bounds its spikes lower is left to that.
  *
@@ -45,7 +45,7 @@ struct path {
 	iv turns, left;            /* its scatterings by the peak, in all and still to come */
 	struct vec sun;            /* to the light */
 	fv by_detour[CARRIED];     /* the path's density and the detour's, as density[] */
-	fv peaked[CARRIED];        /* the share of the path's density that peaks alone have */
+	fv peaked[CARRIED];        /* the share of the path's density, from the camera or the ground on, that peaks alone have */
 	struct random random_there;    /* of the march: the vertex's, or the detour's own */
 	/* the vertex */
 	struct vec point;
@@ -263,7 +263,7 @@ FN void path_light(const struct scene *s, const struct tables *t, struct path *p
 {
 	struct drawn d;
 	some_light(s, t, m, p->point, &p->random, &d);
-	mv ground = ieq(p->class, IV(NONE)), sunny = PEAK ? d.shines & d.small : NO_LANE;
+	mv ground = ieq(p->class, IV(NONE)), sunny = PEAK ? d.shines & d.small & NOT(ground) : NO_LANE;
 	struct vec along = d.along, inverse = d.inverse;
 	fv value[CARRIED], by_detour[CARRIED], chance = FV(0.f);
 	mv straight = ALL_LANES;
@@ -312,7 +312,7 @@ FN void path_light(const struct scene *s, const struct tables *t, struct path *p
 	EACH_WAVE(j) {
 		fv lit = value[j] * k, density = DENSITY(p, j);
 		if (PEAK) {
-			fv low = SEL(ground, value[j], least(value[j], of_wave(s, t->cap, 0, m, p->waves, j)));
+			fv low = least(value[j], of_wave(s, t->cap, 0, m, p->waves, j));
 			fv high = SEL(straight, (value[j] - low) * p->peaked[j] * k, FV(0.f));
 			lit = SEL(sunny, (low * alone + high) * (1.f / (1.f - s->peak)), lit);
 			density = by_detour[j];
@@ -413,7 +413,7 @@ FN mv path_depart(const struct scene *s, const struct tables *t, struct path *p,
 	if (PEAK)
 		EACH_WAVE(j) {
 			fv high = most(FV(0.f), value[j] - of_wave(s, t->cap, 0, m, p->waves, j));
-			SET(on, p->peaked[j], SEL(hit & lt(FV(0.f), high), p->peaked[j] * high / value[j], FV(0.f)));
+			SET(on, p->peaked[j], SEL(ground, FV(1.f), SEL(hit & lt(FV(0.f), high), p->peaked[j] * high / value[j], FV(0.f))));
 		}
 	if (s->has_ground) {       /* cosine-distributed */
 		fv u = draw(&p->random, DRAW_COSINE);
