@@ -216,7 +216,7 @@ FN struct vec detour_direction(const struct scene *s, const struct tables *t, st
 	return sun;
 }
 
-/* The next march of detours m, from a point: a flight, or at last the shadow ray. Lanes whose light is blocked end. */
+/* The next march of detours m, from a point: a flight, or at last the shadow ray. */
 FN void detour_on(const struct scene *s, const struct tables *t, struct path *p, mv m, struct ray r, fv t_end)
 {
 	mv flight = NO_LANE;
