@@ -59,29 +59,31 @@ agree() {
 		'BEGIN { d = m - w; exit !(d * d <= 16 * (s * s) + e * e && s <= most && s > 0) }'
 	ok $? "$1: $m, wanted $2 +- $3, standard error $se"
 }
-# same_bytes SCENE SAMPLES TINY: six tests a transport, of a scene and of a picture of it small enough for the simulator.
+# same_bytes SCENE SAMPLES TINY [OPTION..]: six tests a transport, of a scene and of a picture of it small enough for the simulator.
 same_bytes() {
+	scene=$1 samples=$2 tiny=$3
+	shift 3
 	for t in explicit fat-ray grid continuous; do
-		vrender "$1" --samples "$2" --transport $t --threads 1 -o one.exr
-		vrender "$1" --samples "$2" --transport $t --threads 2 -o two.exr
+		vrender "$scene" "$@" --samples "$samples" --transport $t --threads 1 -o one.exr
+		vrender "$scene" "$@" --samples "$samples" --transport $t --threads 2 -o two.exr
 		cmp one.exr two.exr
 		ok $? "$t: two threads give the bytes of one"
 		differ=
 		for cpu in scalar v2 v3 v4; do    # those that the processor has
-			MOTES_CPU=$cpu vrender "$1" --samples "$2" --transport $t -o one_cpu.exr 2>cpu.err && cmp one.exr one_cpu.exr && continue
+			MOTES_CPU=$cpu vrender "$scene" "$@" --samples "$samples" --transport $t -o one_cpu.exr 2>cpu.err && cmp one.exr one_cpu.exr && continue
 			grep -q 'this processor is no' cpu.err || differ=yes
 		done
 		is '' "$differ" "$t: so do kernels in lanes of any width"
-		vrender "$1" --samples "$2" --transport $t --backend opencl -o cl.exr
+		vrender "$scene" "$@" --samples "$samples" --transport $t --backend opencl -o cl.exr
 		cmp one.exr cl.exr
 		ok $? "$t: OpenCL gives the bytes of C"
 		oiiotool --stats one.exr | grep -q 'Stats NanCount: 0 0 0'
 		ok $? "$t: an independent reader finds no NaN"
-		vrender "$3" --samples 1 --transport $t -o one.exr
+		vrender "$tiny" "$@" --samples 1 --transport $t -o one.exr
 		# the ordinary build, since a sanitizer does not go with the simulator's libraries; FN=static, since inlining leaves
 		# intrinsics that the simulator does not know
 		PATH=$top/build/bin:$PATH oclgrind --check-api --build-options '-DFN=static -cl-opt-disable' \
-			vrender "$3" --samples 1 --transport $t --backend opencl -o grind.exr 2>grind.err
+			vrender "$tiny" "$@" --samples 1 --transport $t --backend opencl -o grind.exr 2>grind.err
 		is "0 0" "$? $(grep -vc 'the device rounds otherwise' grind.err)" "$t: oclgrind finds nothing wrong"
 		cmp one.exr grind.exr
 		ok $? "$t: and gives the same bytes"

@@ -240,7 +240,7 @@ static float cross_section(const struct scenefile *f, const struct medium *m, fl
 }
 
 void job_make(struct job *j, const struct scenefile *file, const struct medium *medium, int transport, int attenuation,
-              uint32 seed)
+              int branches, uint32 seed)
 {
 	struct scene *s = &j->scene;
 	double span = 0;           /* of the grid's coordinates */
@@ -248,6 +248,8 @@ void job_make(struct job *j, const struct scenefile *file, const struct medium *
 	s->seed = seed;
 	s->transport = transport;
 	s->attenuation = attenuation;
+	s->branches = branches;
+	s->branch_share = 1 / (float)branches;
 	s->n_classes = medium->n_classes;
 	/* particles scatter by their class, everything else as the mixture */
 	s->only_class = s->transport == TRANSPORT_CONTINUOUS || !medium->n_particles ? medium->n_classes : medium->n_classes == 1 ? 0 : -1;

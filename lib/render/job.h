@@ -24,8 +24,9 @@ struct job {
 };
 
 /* job_make - the tables point into the medium where they can. Dies when the wavelengths make no colour.
- * transport, attenuation: as in the kernels' scene.h. */
-void job_make(struct job *j, const struct scenefile *file, const struct medium *medium, int transport, int attenuation, uint32 seed);
+ * transport, attenuation, branches: as in the kernels' scene.h. */
+void job_make(struct job *j, const struct scenefile *file, const struct medium *medium, int transport, int attenuation, int branches,
+              uint32 seed);
 
 /* job_film - an empty film; spectral: with sums for every wavelength. */
 void job_film(struct job *j, int spectral);

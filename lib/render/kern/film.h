@@ -71,9 +71,9 @@ FN mv film_values(const struct scene *s, struct path *p, mv m, fv *value)
 		fv last = p->rgb[c], none = p->before[0][c], once = p->before[1][c];
 		fv single = SEL(often, once, SEL(scattered, last, zero)), more = SEL(often, last, zero);
 		none = SEL(scattered, none, last);
-		if (PEAK) {
-			single += p->detoured[0][c];
-			more += p->detoured[1][c];
+		if (PEAK || BRANCHES) {
+			single += p->aside[0][c];
+			more += p->aside[1][c];
 		}
 		bad |= film_clamp(m, &none) | film_clamp(m, &single) | film_clamp(m, &more);
 		value[SUM_OF(SUM_ALL, c)] = none;

@@ -22,6 +22,14 @@
 #include "render/kern/light.h"
 #include "render/kern/phase.h"
 
+/* A camera ray where the medium first scatters it, kept for the branches that go on from there. */
+struct stem {
+	struct vec along, point;
+	iv class, id;
+	fv weight[CARRIED], density[CARRIED], peaked[CARRIED];
+	uv counter;                /* of its random numbers */
+};
+
 struct path {
 	struct ray ray;
 	struct waves waves;
@@ -32,7 +40,7 @@ struct path {
 	fv rgb[3];                 /* seen since the medium last scattered the path */
 	iv order;                  /* times that it did, from 2 on 2; reflections by surfaces do not count */
 	fv before[2][3];           /* what was seen unscattered, and scattered once, of an order that is over */
-	fv detoured[2][3];         /* what came by detours, scattered once and more often on the whole */
+	fv aside[2][3];            /* what came by detours, or by branches that are over, scattered once and more often on the whole */
 	fv depth;                  /* along the camera's ray to where the medium scattered it, -1 if it did not */
 	fv spectrum[CARRIED];      /* all that was seen, by wavelength; kept for spectral images */
 	/* on the way: in flight to a surface or beyond, or from a vertex to a light */
@@ -47,11 +55,18 @@ struct path {
 	fv by_detour[CARRIED];     /* the path's density and the detour's, as density[] */
 	fv peaked[CARRIED];        /* the share of the path's density, from the camera or the ground on, that peaks alone have */
 	struct random random_there;    /* of the march: the vertex's, or the detour's own */
+	/* branches, see path_branch */
+	uv branch;                 /* counts all samples' branches of a pixel */
+	iv branches;               /* still to come */
+	mv again;                  /* back at the stem's end, for the next one */
+	struct stem stem;
 	/* the vertex */
 	struct vec point;
 	iv class, id;              /* class NONE is the ground */
 	fv lit[CARRIED], lamp[3];  /* what the light drawn adds through a clear medium: wavelength j sees lit[j] lamp[] */
 };
+
+#define BRANCHES (s->branches > 1)
 
 #define ISOTROPIC 0.0795774715f    /* sr^-1 */
 
@@ -149,9 +164,11 @@ FN void path_begin(const struct scene *s, struct path *p, mv m, iv pixel, iv col
 		SET(m, p->rgb[i], FV(0.f));
 		SET(m, p->before[0][i], FV(0.f));
 		SET(m, p->before[1][i], FV(0.f));
-		SET(m, p->detoured[0][i], FV(0.f));
-		SET(m, p->detoured[1][i], FV(0.f));
+		SET(m, p->aside[0][i], FV(0.f));
+		SET(m, p->aside[1][i], FV(0.f));
 	}
+	SET(m, p->branch, unsigned_of(sample) * (uint32)s->branches);
+	SET(m, p->branches, IV(0));
 	next_vertex(&p->random, m);
 }
 
@@ -332,6 +349,46 @@ FN void path_light(const struct scene *s, const struct tables *t, struct path *p
 	detour_on(s, t, p, d.shines, r, SEL(straight, d.t_end, t_end));
 }
 
+/* Camera rays m have been scattered by the medium for the first time. Where they take several ways from there, this is kept, and
+ * lanes p->again return to it for the next one. What a branch adds is divided among all of them. Each is, from here on, a sample
+ * with random numbers of its own, so that any number of branches is unbiased; it saves what the camera ray cost. */
+FN void path_branch(const struct scene *s, struct path *p, mv m)
+{
+	mv again = p->again, often = ilt(IV(1), p->order);
+	struct stem *stem = &p->stem;
+	EACH_WAVE(j) {
+		SET(m, p->weight[j], p->weight[j] * s->branch_share);
+		SET(m, stem->weight[j], p->weight[j]);
+		SET(m, stem->density[j], p->density[j]);
+		SET(m, stem->peaked[j], p->peaked[j]);
+		SET(again, p->weight[j], stem->weight[j]);
+		SET(again, p->density[j], stem->density[j]);
+		SET(again, p->peaked[j], stem->peaked[j]);
+	}
+	set3(m, &stem->along, p->ray.along);
+	set3(m, &stem->point, p->point);
+	SET(m, stem->class, p->class);
+	SET(m, stem->id, p->id);
+	SET(m, stem->counter, p->random.counter);
+	set3(again, &p->ray.along, stem->along);
+	set3(again, &p->point, stem->point);
+	SET(again, p->class, stem->class);
+	SET(again, p->id, stem->id);
+	SET(again, p->random.counter, stem->counter);
+	for (int i = 0; i < s->channels; i++) {    /* what the branch before saw */
+		SET(again, p->aside[0][i], p->aside[0][i] + SEL(often, p->before[1][i], p->rgb[i]));
+		SET(again, p->aside[1][i], p->aside[1][i] + SEL(often, p->rgb[i], FV(0.f)));
+		SET(again, p->rgb[i], FV(0.f));
+	}
+	SET(again, p->order, IV(1));
+	SET(m, p->branches, IV(s->branches - 1));
+	SET(again, p->branches, p->branches - 1);
+	SET(again, p->branch, p->branch + 1u);
+	another_sample(m | again, &p->random, p->branch);
+	if (LANES_WAIT)
+		set_random(m | again, &p->random_there, p->random);
+}
+
 /* Flights of lanes m have ended. Returns the lanes whose path is over. */
 FN mv path_arrive(const struct scene *s, const struct tables *t, struct path *p, mv m)
 {
@@ -347,6 +404,7 @@ FN mv path_arrive(const struct scene *s, const struct tables *t, struct path *p,
 	PUT3(m, p->point, c.point);
 	PUT(m, p->class, c.class);
 	PUT(m, p->id, c.id);
+	mv first = hit & ieq(p->order, IV(0));
 	scattered(s, p, hit, c.t);
 	if (s->has_ground) {
 		struct vec floor = add(p->ray.from, scale(p->ray.along, p->t_end));
@@ -359,18 +417,22 @@ FN mv path_arrive(const struct scene *s, const struct tables *t, struct path *p,
 		fv albedo = of_class(s, t->albedo, hit, p->class, p->waves, j);
 		PUT(m, p->weight[j], p->weight[j] * (s->has_ground ? SEL(hit, albedo, FV(s->ground_albedo)) : albedo));
 	}
+	if (BRANCHES && any(first | p->again)) {
+		path_branch(s, p, first);
+		m |= p->again;
+	}
 	if (s->n_drawn)
 		path_light(s, t, p, m);
 	return over;
 }
 
-/* Roulette on the throughput: survival is certain above 1/4, and 4 times the throughput below, never less than it. */
+/* Roulette on the throughput of a branch: survival is certain above 1/4, and 4 times the throughput below, never less than it. */
 FN mv survives(const struct scene *s, struct path *p, mv m)
 {
 	fv throughput = FV(0.f);
 	EACH_WAVE(j)
 		throughput = most(throughput, p->weight[j] * DENSITY(p, j));
-	fv q = 4.f * throughput;
+	fv q = 4.f * (float)s->branches * throughput;
 	mv doubtful = m & lt(q, FV(1.f));
 	if (!any(doubtful))
 		return m;
@@ -392,8 +454,8 @@ FN mv path_depart(const struct scene *s, const struct tables *t, struct path *p,
 			if (!PEAK || !any(lighted & NOT(straight)))
 				continue;
 			once = ieq(p->order + p->turns, IV(1));
-			see_into(s, t, p, lighted & NOT(straight) & once, j, lit * through[j], p->lamp, p->detoured[0]);
-			see_into(s, t, p, lighted & NOT(straight | once), j, lit * through[j], p->lamp, p->detoured[1]);
+			see_into(s, t, p, lighted & NOT(straight) & once, j, lit * through[j], p->lamp, p->aside[0]);
+			see_into(s, t, p, lighted & NOT(straight | once), j, lit * through[j], p->lamp, p->aside[1]);
 		}
 	}
 	mv on = survives(s, p, m), ground = s->has_ground ? on & ieq(p->class, IV(NONE)) : NO_LANE, hit = on & NOT(ground);

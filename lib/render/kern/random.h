@@ -37,11 +37,13 @@ FN uv reversed(uv x)
 	return x << 16 | x >> 16;
 }
 
+FN uv key_of(uv sample, uv shift) { return mix(sample + 0x7f4a7c15u, shift); }
+
 FN struct random random_of(uint32 seed, uv pixel, uv sample)
 {
 	struct random r;
 	r.shift = mix(pixel + 0x9e3779b9u, UV(seed * 0x9e3779b1u ^ 0x85ebca6bu));
-	r.key = mix(sample + 0x7f4a7c15u, r.shift);
+	r.key = key_of(sample, r.shift);
 	r.counter = mix(r.shift ^ 0x2545f491u, r.shift);
 	r.lattice = reversed(sample);
 	return r;
@@ -77,6 +79,13 @@ FN void next_vertex(struct random *r, mv m)
 {
 	SET(m, r->counter, r->counter + DIMENSIONS * 0x9e3779b9u);
 	SET(m, r->lattice, r->lattice * generator(EVEN));
+}
+
+/* From the vertex at hand on, lanes m draw the numbers of another sample of their pixel. */
+FN void another_sample(mv m, struct random *r, uv sample)
+{
+	SET(m, r->key, key_of(sample, r->shift));
+	SET(m, r->lattice, reversed(sample) * generator(EVEN));
 }
 
 #endif

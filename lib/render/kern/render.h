@@ -64,6 +64,10 @@ FN void render_pixels(const struct scene *s, const struct tables *t, GLOBAL int6
 		leaving = live & NOT(p.flying | marching(s, &p.march) | ended | (PEAK ? p.detour : NO_LANE));
 		ended |= path_depart(s, t, &p, leaving);
 		leaving &= NOT(ended);
+		if (BRANCHES) {
+			p.again = ended & ilt(IV(0), p.branches);
+			ended &= NOT(p.again);
+		}
 		live &= NOT(ended);
 		over |= ended;
 		fresh = NO_LANE;

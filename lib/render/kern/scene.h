@@ -37,6 +37,8 @@ struct scene {
 	int n_classes;             /* class n_classes is the mixture of the whole medium */
 	int only_class;            /* that scatters, or -1 where there are several */
 	int isotropic;             /* all phase functions are 1 / (4 pi) */
+	int branches;              /* ways that a camera ray goes on from where the medium first scatters it */
+	float branch_share;        /* 1 / branches */
 	float peak;                /* share of scattering that is above the cap of a peaked phase function, 0: there is no peak */
 	float detours;             /* 1 / -log(peak) */
 	int round;                 /* the medium fills a sphere of radius extent[0], else a box */
