@@ -63,11 +63,14 @@ printf '# transport\twhat\tsamples\ts\tspeed, as a ratio\tto\n' >lanes.tsv
 		done
 		unset MOTES_CPU
 		n=$((2 * $(samples_for "$seconds" vrender "$t.scene" --transport "$t")))
-		c=$(render_time -w $n vrender "$t.scene" --transport "$t" --threads 2)
-		vrender "$t.scene" --transport "$t" --backend opencl --samples 1 -o cl.exr      # fills the cache
-		s=$(render_time -w $n vrender "$t.scene" --transport "$t" --backend opencl)
+		vrender "$t.scene" --transport "$t" --backend opencl --samples "$n" -o cl.exr      # fills the cache
+		for turn in 1 2 3; do      # what else the machine does should not hit one of the two alone: the best of three in turn
+			render_time -w "$n" vrender "$t.scene" --transport "$t" --threads 2 >>"c.$t"
+			render_time -w "$n" vrender "$t.scene" --transport "$t" --backend opencl >>"cl.$t"
+		done
+		c=$(sort -g "c.$t" | head -n 1) s=$(sort -g "cl.$t" | head -n 1)
 		r=$(ratio "$c" "$s")
-		printf '%s\tOpenCL, 2 threads\t%s\t%s\t%s\tC, 2 threads\n' "$t" $n "$s" "$r" >>lanes.tsv
+		printf '%s\tOpenCL, 2 threads\t%s\t%s\t%s\tC, 2 threads\n' "$t" "$n" "$s" "$r" >>lanes.tsv
 		need "$t, OpenCL over C" "$r" 0.8 x
 	done
 	cp lanes.tsv "$out"

@@ -210,10 +210,12 @@ FN void gather_particle(const struct scene *s, const struct tables *t, struct ga
 FN void gather_on(const struct scene *s, const struct tables *t, struct gather *g, struct waves w, const struct random *random)
 {
 	mv busy = g->going & ilt(g->n, g->to);
-	while (any(busy)) {
+	int n = count(busy), least_busy = count(g->going) - ROW_WAIT;
+	while (n > 0) {
 		gather_particle(s, t, g, busy, w, random);
 		busy = g->going & ilt(g->n, g->to);
-		if (count(g->going & NOT(busy)) > ROW_WAIT)
+		n = count(busy);
+		if (n < least_busy)
 			break;
 	}
 	gather_row(s, t, g, g->going & NOT(busy));

@@ -2,7 +2,7 @@
  *
  * fv, iv, uv are floats, signed and unsigned integers of 32 bits, one a lane; + - * / & | ^ << >> work on them as on scalars, and
  * scalars spread over all lanes. mv is a truth a lane, made by lt, le, ilt, ieq; &, | and NOT work on it. Its value differs from one
- * build to the next and is never used: SEL(m, a, b), any, count and LANE_IN read it.
+ * build to the next and is never used: SEL(m, a, b), any, count and bits_of read it.
  *
  * Only + - * / and sqrt of floats, integer operations and in-range conversions are used: each is exact or correctly rounded,
  * nothing is contracted, no lane looks at another one, and so every build gives the same bits at every width. */
@@ -17,7 +17,6 @@
 #define PASTE_(a, b) a##b
 #define PASTE(a, b) PASTE_(a, b)
 #define EACH_LANE(i) for (int i = 0; i < LANES; i++)
-#define EACH_LANE_OF(m, i) EACH_LANE(i) if (LANE_IN(m, i))
 
 #ifdef __OPENCL_VERSION__
 /* ------------------------------------------------------------------ OpenCL */
@@ -37,7 +36,6 @@ typedef PASTE(uint, LANES) uv;
 #define TRUTH(c) (c)
 #endif
 #define LANE_FLOAT(v, i) as_float(LANE(v, i))
-#define LANE_IN(m, i) LANE(m, i)
 #define FV(x) ((fv)(x))
 #define IV(x) ((iv)(x))
 #define UV(x) ((uv)(x))
@@ -59,19 +57,29 @@ FN mv ieq(iv a, iv b) { return TRUTH(a == b); }
 #if LANES == 16
 #define EACH_AT(at, p, i) (at(p, i.s0), at(p, i.s1), at(p, i.s2), at(p, i.s3), at(p, i.s4), at(p, i.s5), at(p, i.s6), at(p, i.s7), \
                            at(p, i.s8), at(p, i.s9), at(p, i.sa), at(p, i.sb), at(p, i.sc), at(p, i.sd), at(p, i.se), at(p, i.sf))
-FN int sum4(int4 a) { return a.x + a.y + a.z + a.w; }
-FN int count(mv m) { return -sum4(m.lo.lo + m.lo.hi + m.hi.lo + m.hi.hi); }
+FN uint32 bits_of(mv m)
+{
+	int8 a = m.lo & (int8)(1, 2, 4, 8, 16, 32, 64, 128), b = m.hi & (int8)(256, 512, 1024, 2048, 4096, 8192, 16384, 32768);
+	int4 c = (a | b).lo | (a | b).hi;
+	return (uint32)(c.x | c.y | (c.z | c.w));
+}
 #elif LANES == 8
 #define EACH_AT(at, p, i) (at(p, i.s0), at(p, i.s1), at(p, i.s2), at(p, i.s3), at(p, i.s4), at(p, i.s5), at(p, i.s6), at(p, i.s7))
-FN int sum4(int4 a) { return a.x + a.y + a.z + a.w; }
-FN int count(mv m) { return -sum4(m.lo + m.hi); }
+FN uint32 bits_of(mv m)
+{
+	int4 a = (m.lo & (int4)(1, 2, 4, 8)) | (m.hi & (int4)(16, 32, 64, 128));
+	return (uint32)(a.x | a.y | (a.z | a.w));
+}
 #elif LANES == 4
 #define EACH_AT(at, p, i) (at(p, i.x), at(p, i.y), at(p, i.z), at(p, i.w))
-FN int count(mv m) { return -(m.x + m.y + m.z + m.w); }
+FN uint32 bits_of(mv m) { return (uint32)((m.x & 1) | (m.y & 2) | (m.z & 4) | (m.w & 8)); }
 #else
 #define EACH_AT(at, p, i) (at(p, i))
-FN int count(mv m) { return -m; }
+FN uint32 bits_of(mv m) { return (uint32)(m & 1); }
 #endif
+FN int count(mv m) { return (int)popcount(bits_of(m)); }
+#define any(m) (bits_of(m) != 0)    /* the built-in one may test lane by lane */
+FN uint32 lowest(uint32 bits) { return 31 - clz(bits & -bits); }
 typedef float8 f8;
 typedef long8 l8;
 FN l8 l8_of(f8 x) { return convert_long8_rtz(x); }
@@ -84,6 +92,7 @@ FN void l8_store(GLOBAL int64 *p, l8 x) { vstore8(x, 0, p); }
 FN uint64 high_product(uint64 a, uint64 b) { return mul_hi(a, b); }
 FN fv gather(mv m, FLOATS p, iv i) { i &= m; return (fv)EACH_AT(float_at, p, i); }
 FN iv igather(mv m, INTS p, iv i) { i &= m; return (iv)EACH_AT(int_at, p, i); }
+#if CHUNKS > 1 || LANES == 1
 FN void gather4(mv m, FLOATS p, iv i, int offset, fv *out)
 {
 	for (int k = 0; k < 4; k++)
@@ -94,6 +103,55 @@ FN void igather2(mv m, INTS p, iv i, iv *out)
 	out[0] = igather(m, p, i);
 	out[1] = igather(m, p, i + 1);
 }
+#else
+/* A row is one load; the rest is transposition, of four rows at a time. Without loops, which a compiler may keep, and with them arrays
+ * in memory. */
+#define PAIR(k) vload2(0, p + i.k)
+struct four { float4 x, y, z, w; };
+FN struct four four_rows(FLOATS p, int4 i)
+{
+	float4 r0 = vload4(0, p + i.x), r1 = vload4(0, p + i.y), r2 = vload4(0, p + i.z), r3 = vload4(0, p + i.w);
+	float4 a = (float4)(r0.x, r2.x, r0.y, r2.y), b = (float4)(r1.x, r3.x, r1.y, r3.y);
+	float4 c = (float4)(r0.z, r2.z, r0.w, r2.w), d = (float4)(r1.z, r3.z, r1.w, r3.w);
+	struct four t = { (float4)(a.x, b.x, a.y, b.y), (float4)(a.z, b.z, a.w, b.w), (float4)(c.x, d.x, c.y, d.y), (float4)(c.z, d.z, c.w, d.w) };
+	return t;
+}
+FN void gather4(mv m, FLOATS p, iv i, int offset, fv *out)
+{
+	i &= m;
+	p += offset;
+#if LANES == 16
+	struct four a = four_rows(p, i.lo.lo), b = four_rows(p, i.lo.hi), c = four_rows(p, i.hi.lo), d = four_rows(p, i.hi.hi);
+#define ALL(part) (fv)(a.part, b.part, c.part, d.part)
+#elif LANES == 8
+	struct four a = four_rows(p, i.lo), b = four_rows(p, i.hi);
+#define ALL(part) (fv)(a.part, b.part)
+#else
+	struct four a = four_rows(p, i);
+#define ALL(part) a.part
+#endif
+	out[0] = ALL(x);
+	out[1] = ALL(y);
+	out[2] = ALL(z);
+	out[3] = ALL(w);
+#undef ALL
+}
+FN void igather2(mv m, INTS p, iv i, iv *out)
+{
+	i &= m;
+#if LANES == 16
+	iv a = (iv)(PAIR(s0), PAIR(s1), PAIR(s2), PAIR(s3), PAIR(s4), PAIR(s5), PAIR(s6), PAIR(s7));
+	iv b = (iv)(PAIR(s8), PAIR(s9), PAIR(sa), PAIR(sb), PAIR(sc), PAIR(sd), PAIR(se), PAIR(sf));
+#elif LANES == 8
+	int8 a = (int8)(PAIR(s0), PAIR(s1), PAIR(s2), PAIR(s3)), b = (int8)(PAIR(s4), PAIR(s5), PAIR(s6), PAIR(s7));
+#else
+	int4 a = (int4)(PAIR(s0), PAIR(s1)), b = (int4)(PAIR(s2), PAIR(s3));
+#endif
+	out[0] = (iv)(a.even, b.even);
+	out[1] = (iv)(a.odd, b.odd);
+}
+#undef PAIR
+#endif
 
 #else
 /* ------------------------------------------------------------------ C */
@@ -112,7 +170,6 @@ typedef float fv;
 typedef int32_t iv, mv;
 typedef uint32_t uv;
 #define LANE(v, i) (v)
-#define LANE_IN(m, i) (m)
 #define FV(x) ((float)(x))
 #define IV(x) ((int32_t)(x))
 #define UV(x) ((uint32_t)(x))
@@ -129,8 +186,7 @@ FN mv le(fv a, fv b) { return -(a <= b); }
 FN mv ilt(iv a, iv b) { return -(a < b); }
 FN mv ieq(iv a, iv b) { return -(a == b); }
 FN fv root(fv x) { return __builtin_sqrtf(x); }
-FN int any(mv m) { return m; }
-FN int count(mv m) { return -m; }
+FN uint32 bits_of(mv m) { return m & 1; }
 FN fv gather(mv m, const float *p, iv i) { return m ? p[i] : 0.f; }
 FN iv igather(mv m, const int *p, iv i) { return m ? p[i] : 0; }
 #else
@@ -148,25 +204,20 @@ FN fv to_float(iv x) { return __builtin_convertvector(x, fv); }
 FN iv to_int(fv x) { return __builtin_convertvector(x, iv); }
 #if LANES == 16            /* AVX-512: truths are bits */
 typedef __mmask16 mv;
-#define LANE_IN(m, i) ((m) >> (i) & 1)
 #define NO_LANE ((mv)0)
 #define ALL_LANES ((mv)0xffff)
 #define NOT(m) ((mv)~(m))
-#undef EACH_LANE_OF        /* their bits, one by one */
-#define EACH_LANE_OF(m, i) for (unsigned bits = (m), i = (unsigned)__builtin_ctz(bits | 0x10000); bits; bits &= bits - 1, i = (unsigned)__builtin_ctz(bits | 0x10000))
 #define SEL(m, a, b) ((__typeof__(a))_mm512_mask_blend_epi32(m, (__m512i)(b), (__m512i)(a)))
 FN mv lt(fv a, fv b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ); }
 FN mv le(fv a, fv b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LE_OQ); }
 FN mv ilt(iv a, iv b) { return _mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b); }
 FN mv ieq(iv a, iv b) { return _mm512_cmpeq_epi32_mask((__m512i)a, (__m512i)b); }
 FN fv root(fv x) { return (fv)_mm512_sqrt_ps((__m512)x); }
-FN int any(mv m) { return m != 0; }
-FN int count(mv m) { return __builtin_popcount(m); }
+FN uint32 bits_of(mv m) { return m; }
 FN fv gather(mv m, const float *p, iv i) { return (fv)_mm512_mask_i32gather_ps(_mm512_setzero_ps(), m, (__m512i)i, p, 4); }
 FN iv igather(mv m, const int *p, iv i) { return (iv)_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), m, (__m512i)i, p, 4); }
 #else                      /* truths are lanes of 0 or -1 */
 typedef iv mv;
-#define LANE_IN(m, i) ((m)[i])
 #define NO_LANE ((mv){ 0 })
 #define ALL_LANES (NO_LANE - 1)
 #define NOT(m) (~(m))
@@ -177,15 +228,13 @@ FN mv ieq(iv a, iv b) { return a == b; }
 #if LANES == 8             /* AVX2 */
 #define SEL(m, a, b) ((__typeof__(a))_mm256_blendv_epi8((__m256i)(b), (__m256i)(a), (__m256i)(m)))
 FN fv root(fv x) { return (fv)_mm256_sqrt_ps((__m256)x); }
-FN int any(mv m) { return _mm256_movemask_ps((__m256)m) != 0; }
-FN int count(mv m) { return __builtin_popcount((unsigned)_mm256_movemask_ps((__m256)m)); }
+FN uint32 bits_of(mv m) { return (uint32)_mm256_movemask_ps((__m256)m); }
 FN fv gather(mv m, const float *p, iv i) { return (fv)_mm256_mask_i32gather_ps(_mm256_setzero_ps(), p, (__m256i)i, (__m256)m, 4); }
 FN iv igather(mv m, const int *p, iv i) { return (iv)_mm256_mask_i32gather_epi32(_mm256_setzero_si256(), p, (__m256i)i, (__m256i)m, 4); }
 #else                      /* SSE4.1, 4 lanes */
 #define SEL(m, a, b) ((__typeof__(a))_mm_blendv_epi8((__m128i)(b), (__m128i)(a), (__m128i)(m)))
 FN fv root(fv x) { return (fv)_mm_sqrt_ps((__m128)x); }
-FN int any(mv m) { return _mm_movemask_ps((__m128)m) != 0; }
-FN int count(mv m) { return __builtin_popcount((unsigned)_mm_movemask_ps((__m128)m)); }
+FN uint32 bits_of(mv m) { return (uint32)_mm_movemask_ps((__m128)m); }
 FN fv gather(mv m, const float *p, iv i)
 {
 	fv r = { 0 };
@@ -201,6 +250,9 @@ FN iv igather(mv m, const int *p, iv i)
 #endif
 #endif
 #endif
+FN int any(mv m) { return bits_of(m) != 0; }
+FN int count(mv m) { return __builtin_popcount(bits_of(m)); }
+FN uint32 lowest(uint32 bits) { return (uint32)__builtin_ctz(bits | 0x80000000u); }
 FN iv signed_of(uv x) { return (iv)x; }
 FN uv unsigned_of(iv x) { return (uv)x; }
 #define LANE_FLOAT(v, i) LANE(v, i)
@@ -283,6 +335,8 @@ FN void igather2(mv m, const int *p, iv i, iv *out)
 #endif
 
 /* ------------------------------------------------------------------ for both */
+/* The lanes of m one by one; bits_of has a bit for each. */
+#define EACH_LANE_OF(m, i) for (uint32 bits = bits_of(m), i = lowest(bits); bits; bits &= bits - 1, i = lowest(bits))
 FN fv least(fv a, fv b) { return SEL(lt(a, b), a, b); }
 FN fv most(fv a, fv b) { return SEL(lt(b, a), a, b); }
 FN iv ileast(iv a, iv b) { return SEL(ilt(a, b), a, b); }

@@ -55,7 +55,8 @@ FN void render_pixels(const struct scene *s, const struct tables *t, GLOBAL int6
 			path_begin(s, &p, fresh, work.at_pixel, work.at_column, work.at_row, work.at_sample);
 		live |= fresh;
 		path_fly(s, t, &p, fresh | leaving);
-		while (any(marching(s, &p.march)) && count(live & NOT(marching(s, &p.march))) < VERTEX_WAIT)
+		int paths = count(live), under_way;
+		while ((under_way = count(marching(s, &p.march))) > 0 && paths - under_way < VERTEX_WAIT)
 			march_on(s, t, &p.march, p.waves, p.hero, &p.random_there);
 		mv here = live & NOT(marching(s, &p.march)), by_detour = PEAK ? here & p.detour : NO_LANE;
 		mv ended = path_arrive(s, t, &p, here & p.flying);
