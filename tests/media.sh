@@ -25,17 +25,6 @@ sizes() {
 	awk -v n="$1" 'BEGIN { print "# radius:f64:um\tweight:f64:1"; for (i = 1; i <= n; i++) printf "%d\t%.17g\n", 1000 * i, 1 / n }' | txttab
 }
 
-# ---- images, which are grey
-
-# mean IMAGE [CHANNEL]: of all pixels.
-pixels() { oiiotool "$1" --ch "${2:-G}" --dumpdata | awk '/Pixel/ { print $NF }'; }
-mean() { pixels "$@" | awk '{ s += $1 } END { printf "%.9g\n", s / NR }'; }
-# both IMAGE IMAGE: of two renderings from different seeds: their mean and its standard error, by the differences of pixels.
-both() {
-	pixels "$1" >both.1
-	pixels "$2" | paste both.1 - | awk '{ s += $1 + $2; d += ($1 - $2)^2 } END { printf "%.9g %.4g\n", s / 2 / NR, sqrt(d) / 2 / NR }'
-}
-
 # ---- slabs: by reciprocity, what a camera sees of a wide slab at the cosine mu0 to its normal, under radiance 1 from the upper half
 # of all directions, is the share of a beam at mu0 that the slab reflects; under radiance 1 from the lower half, the share it lets
 # through.
