@@ -150,7 +150,7 @@ static void everywhere(void)
 		struct efficiencies q = mie_efficiencies(x, im == 0, w.n, w.a, w.b);
 		double complex s1[3], s2[3];
 		mie_amplitudes(w.n, w.a, w.b, 3, (double[]){ 0, 180 * uniform(), 180 }, s1, s2);
-		double error = mie_error(x, w.n, w.a, w.b);
+		double error = mie_error(x, im == 0, w.n, w.a, w.b);
 		int good = q.ext >= q.sca && q.sca >= 0 && q.abs >= 0 && fabs(q.g) <= 1 && isfinite(q.ext) && isfinite(q.back) && error > 0 &&
 		           (isfinite(error) || q.ext < 1e-200);
 		for (int k = 0; k < 3; k++)

@@ -1,4 +1,5 @@
 /* xsect - cross sections and asymmetry parameter of spheres. */
+#include "base/cpu.h"
 #include "base/die.h"
 #include "optics/goa.h"
 #include "optics/mie.h"
@@ -18,7 +19,6 @@ static const double codes[] = { 1, 3 };    /* as in the column method */
 struct answer {
 	struct efficiencies q;
 	double error;
-	int failed;
 };
 
 /* The estimate that is worst in this run. */
@@ -27,22 +27,37 @@ struct worst {
 	double error;
 };
 
-static void answer(int method, struct waves *w, struct answer *a)
+/* The published extinction formula has the ray of one chord only, the phase function has three. */
+static void by_goa(const struct size *size, struct answer *a)
 {
-	if (method == GOA) {
-		/* The published extinction formula has the ray of one chord only, the phase function has three. */
-		double ignored;
-		struct efficiencies rays = goa_efficiencies(w->size.x, w->size.m, GOA_ORDER, &ignored);
-		a->q = goa_efficiencies(w->size.x, w->size.m, 1, &a->error);
-		a->q.g = rays.g;
-		a->q.back = rays.back;
+	double ignored;
+	struct efficiencies rays = goa_efficiencies(size->x, size->m, GOA_ORDER, &ignored);
+	a->q = goa_efficiencies(size->x, size->m, 1, &a->error);
+	a->q.g = rays.g;
+	a->q.back = rays.back;
+}
+
+/* n sizes; those whose coefficients were read have them. */
+static void by_mie(int cpu, int n, struct waves *w, struct answer *a)
+{
+	static double x[COEFFS_BATCH], error[COEFFS_BATCH];
+	static double complex m[COEFFS_BATCH];
+	static struct efficiencies q[COEFFS_BATCH];
+	if (n && w[0].a) {
+		for (int i = 0; i < n; i++) {
+			a[i].q = mie_efficiencies(w[i].size.x, w[i].lossless, w[i].n, w[i].a, w[i].b);
+			a[i].error = mie_error(w[i].size.x, w[i].lossless, w[i].n, w[i].a, w[i].b);
+		}
 		return;
 	}
-	a->failed = waves_solve(w);
-	if (a->failed)
-		return;
-	a->q = mie_efficiencies(w->size.x, w->lossless, w->n, w->a, w->b);
-	a->error = mie_error(w->size.x, w->n, w->a, w->b);
+	for (int i = 0; i < n; i++) {
+		x[i] = w[i].size.x;
+		m[i] = w[i].size.m;
+	}
+	if (mie_many(cpu, n, x, m, q, error))
+		die(NULL, "out of memory");
+	for (int i = 0; i < n; i++)
+		a[i] = (struct answer){ q[i], error[i] };
 }
 
 static int columns(int by_x, struct tab_col *cols)
@@ -80,17 +95,17 @@ static struct worst run(struct coeffs *in, int method, const char *output, const
 	struct worst worst = { .error = -1 };
 	struct tab_col cols[TAB_COLS];
 	double row[TAB_COLS];
-	int by_x = coeffs_by_x(in), k = coeffs_columns(in, cols);
+	int cpu = cpu_level(), by_x = coeffs_by_x(in), k = coeffs_columns(in, cols);
 	k += columns(by_x, cols + k);
 	int ncarried = coeffs_carried(in, k, cols, cols + k), n = coeffs_batch(in, w);
 	struct tab_out *out = tab_create(output, coeffs_history(in), command, k + ncarried, cols);
 	for (; n; n = coeffs_batch(in, w)) {
+		if (method == MIE)
+			by_mie(cpu, n, w, a);
 #pragma omp parallel for schedule(dynamic) if (n > 1)
-		for (int i = 0; i < n; i++)
-			answer(method, &w[i], &a[i]);
+		for (int i = 0; i < (method == GOA ? n : 0); i++)
+			by_goa(&w[i].size, &a[i]);
 		for (int i = 0; i < n; i++) {
-			if (a[i].failed)
-				die(NULL, "out of memory");
 			int j = coeffs_key(in, &w[i].size, row);
 			j += values(by_x, method, &w[i].size, &a[i], row + j);
 			memcpy(row + j, w[i].size.carried, (size_t)ncarried * sizeof *row);

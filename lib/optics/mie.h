@@ -21,10 +21,15 @@ int mie_terms(double x, double complex m);
 
 /* mie_coefficients - a[1..n], b[1..n]; index 0 is set to 0.
  * Given:    x   size parameter, (0, MIE_X_MAX]
- *           m   relative refractive index, Re m > 0, Im m >= 0, |m| x <= 1e9
+ *           m   relative refractive index, Re m > 0, Im m >= 0, |m| x <= 1e9, or 1e10 where Im m > 1e-3 |m|
  *           n   number of terms, at least 1
  * Returned: a[n+1], b[n+1]; 0 on success, -1 when memory ran out */
 int mie_coefficients(double x, double complex m, int n, double complex *a, double complex *b);
+
+/* mie_many - efficiencies and mie_error of n spheres x[n], m[n] (ranges as above), many side by side, the same to the last bit as of each
+ * alone. cpu: which processor's build, as of base/cpu.h. Blocks of spheres are shared out among OpenMP threads.
+ * Returned: q[n], error[n]; 0, or -1 when memory ran out */
+int mie_many(int cpu, int n, const double *x, const double complex *m, struct efficiencies *q, double *error);
 
 /* mie_lossless - whether a[n+1], b[n+1] are those of a particle that does not absorb: |a|^2 = Re a and |b|^2 = Re b to rounding.
  * So a stream of coefficients need not carry m. */
@@ -36,7 +41,7 @@ struct efficiencies mie_efficiencies(double x, int lossless, int n, const double
 /* mie_error - estimate of what rounding does to the efficiencies: the larger of the relative errors of ext and sca and the
  * absolute error of g. It grows with x, and where m is near 1. On a narrow resonance the rounding of x itself can do far more;
  * that is not in it. */
-double mie_error(double x, int n, const double complex *a, const double complex *b);
+double mie_error(double x, int lossless, int n, const double complex *a, const double complex *b);
 
 /* mie_amplitudes - S1, S2 at angles theta[ntheta] (degrees, [0, 180]) by direct summation; 0, or -1 when memory ran out.
  * An angle's result does not depend on the others. Blocks of angles are shared out among OpenMP threads. */

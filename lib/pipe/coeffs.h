@@ -50,7 +50,7 @@ int coeffs_next(struct coeffs *c, struct waves *out);
 
 /* coeffs_batch - up to COEFFS_BATCH next waves, fewer where x is large, so that their coefficients together stay bounded in memory;
  * returns how many, 0 at the end. */
-#define COEFFS_BATCH 256
+#define COEFFS_BATCH 2048
 int coeffs_batch(struct coeffs *c, struct waves out[COEFFS_BATCH]);
 
 void coeffs_close(struct coeffs *c);

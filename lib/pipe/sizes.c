@@ -11,7 +11,7 @@
 /* Relative refractive indices in reach; with |m| x no larger than this, orders fit an int. */
 #define M_MIN 1e-3
 #define M_MAX 1e3
-#define Y_MAX 1e9
+#define Y_MAX(m) (cimag(m) > 1e-3 * cabs(m) ? 1e10 : 1e9)    /* of |m| x; more would take minutes a size */
 
 struct sizes {
 	struct tab *table;                  /* NULL: the options give the sizes */
@@ -198,8 +198,8 @@ int sizes_by_x(const struct sizes *s) { return s->x.n > 0; }
 
 static void check_x(const struct sizes *s, double x, double complex m, double radius, double wavelength)
 {
-	if (cabs(m) * x > Y_MAX)
-		die("--particle", "size parameter %g times relative index %g exceeds %g", x, cabs(m), Y_MAX);
+	if (cabs(m) * x > Y_MAX(m))
+		die("--particle", "size parameter %g times relative index %g exceeds %g", x, cabs(m), Y_MAX(m));
 	if (x >= SIZES_X_MIN && x <= SIZES_X_MAX)
 		return;
 	if (s->table)

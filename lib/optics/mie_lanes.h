@@ -1,0 +1,43 @@
+/* mie_lanes - partial waves of many spheres side by side: a block of spheres, the sums over their coefficients, and a build of the
+ * loop for each processor. Each sphere's result depends on itself alone, and is the same in every build. */
+#ifndef OPTICS_MIE_LANES_H
+#define OPTICS_MIE_LANES_H
+
+#define MIE_BLOCK 32           /* spheres side by side */
+#define MIE_BLOCK_TERMS 20000  /* of these, so that a block's ratios stay within 3 x 5 MB */
+
+#include "optics/mie.h"
+
+#include <stddef.h>
+
+#define MIE_NEAR 0.005         /* |m - 1| below which coefficients are taken from differences */
+
+/* Sums over l = 1 .. terms. */
+struct mie_sums {
+	double ext, sca;           /* sum (2l+1) Re(a + b), (2l+1) (|a|^2 + |b|^2) */
+	double asym;               /* sum l(l+2)/(l+1) Re(a_l a*_(l+1) + b_l b*_(l+1)) + (2l+1)/(l(l+1)) Re(a_l b*_l) */
+	double back_re, back_im;   /* sum (-1)^l (2l+1) (a - b) */
+	double top;                /* the largest |a|^2 or |b|^2 */
+};
+
+/* Efficiencies, and the estimate of their error, of sums at size parameter x. */
+struct efficiencies mie_of_sums(double x, int lossless, const struct mie_sums *s);
+double mie_error_of_sums(double x, const struct mie_sums *s);
+
+struct mie_block {
+	int absorbs, near;         /* some Im m > 0, else m_im is not looked at; all |m - 1| < MIE_NEAR */
+	double x[MIE_BLOCK], m_re[MIE_BLOCK], m_im[MIE_BLOCK];
+	int terms[MIE_BLOCK];      /* of each, mie_terms */
+	double *ratios;            /* room, mie_block_room(largest of terms) doubles, aligned to 64 bytes */
+	struct mie_sums sums[MIE_BLOCK];
+};
+
+#define mie_block_room(terms) (3 * ((size_t)(terms) + 2) * MIE_BLOCK)
+
+typedef void mie_block_fn(struct mie_block *b);
+extern mie_block_fn mie_block_scalar;
+#ifdef __x86_64__
+extern mie_block_fn mie_block_v2, mie_block_v3, mie_block_v4;
+#endif
+
+#endif
