@@ -122,7 +122,7 @@ refused 'x and wavelength' 'excludes --wavelength' xsect --particle 1.33 --wavel
 refused 'the other sign convention' '--particle: .*positive one absorbs' xsect --particle 1.5-0.1i --size-parameter 1
 refused 'an absorbing host' '--host: .*absorbs' xsect --particle 1.5 --host 1.3+0.01i --size-parameter 1
 refused 'particle like host' 'does not scatter' xsect --particle 1.33 --host 1.33 --size-parameter 1
-refused 'an index out of all bounds' '--particle: .*from 0.001 to 1000' xsect --particle 1e9 --size-parameter 1
+refused 'an index out of all bounds' '--particle: .*from 0.001 to 2000' xsect --particle 1e9 --size-parameter 1
 refused 'an index too large for the size' '--particle: .*exceeds 1e\+09' xsect --particle 900 --size-parameter 1e7
 refused 'x too large' 'from 1e-08 to 1e\+07' xsect --particle 1.33 --size-parameter 2e7
 refused 'x of a radius too large' '--radius: .*radius 1e\+07 um.*from 1e-08 to 1e\+07' xsect --particle 1.33 --wavelength 100nm --radius 10m
