@@ -1,0 +1,68 @@
+/* edge - the partial waves near the edge of a large sphere (and near the critical angle of a bubble), where rays fail, as a sum.
+ *
+ * A window W_p(u), u = lambda/x = sin of the angle of incidence, says which share of order p is summed as waves; rays carry the
+ * rest, 1 - W_p. W rises over many widths s = (x/2)^(1/3) of the edge, so that neither side sees an end. */
+#ifndef OPTICS_EDGE_H
+#define OPTICS_EDGE_H
+
+#include "base/cmplx.h"
+
+#define EDGE_ORDERS 8      /* orders 0 .. 8 have windows of their own; those above are in no ray and share one */
+
+/* W rises or falls in each of its pieces, smoothly, and is 0 or 1 beyond: with t = (u - zero) over, clamped to [0, 1], it is a polynomial
+ * that goes from 0 to 1 with three derivatives. Piece k holds from u = from[k] on. */
+#define WINDOW_PIECES 3
+struct window {
+	int n;
+	double from[WINDOW_PIECES], zero[WINDOW_PIECES], over[WINDOW_PIECES];
+};
+
+struct edge_strip {
+	int first, n;              /* waves l = first .. first + n - 1 */
+	double *sum, *sum_behind, *difference;    /* coefficients of S1 + S2 (the disc's wave removed; not removed) and S1 - S2, re, im */
+};
+
+struct edge {
+	double x;
+	double complex m;
+	int disc;                  /* the disc diffracts waves 1 .. disc */
+	int whole;                 /* W = 1 everywhere: there is nothing for rays to do */
+	struct window window[EDGE_ORDERS + 2];
+	int n;
+	struct edge_strip strip[2];
+	struct window only[2];     /* the part of W_0 that each strip has, where there are two */
+};
+
+/* window_piece - W and its first two derivatives by u, in a piece. */
+static inline double window_piece(double zero, double over, double u, double *first, double *second)
+{
+	double t = (u - zero) * over;
+	t = t > 0 ? t : 0;
+	t = t < 1 ? t : 1;
+	double r = 1 - t, tr = t * r;
+	*first = 140 * tr * tr * tr * over;
+	*second = 420 * tr * tr * (r - t) * (over * over);
+	return t * t * (t * t) * (35 - t * (84 - t * (70 - 20 * t)));
+}
+
+/* window_at - W at u. */
+static inline double window_at(const struct window *w, double u)
+{
+	double first, second;
+	int k = w->n - 1;
+	while (k > 0 && u < w->from[k])
+		k--;
+	return window_piece(w->zero[k], w->over[k], u, &first, &second);
+}
+
+/* window_constant - W, if it is 0 throughout [least, most] or 1 throughout, else -1. */
+double window_constant(const struct window *w, double least, double most);
+
+/* edge_new - windows and waves for a size. Returns 0, or -1 when memory ran out (there is nothing to free then). */
+int edge_new(struct edge *e, double x, double complex m);
+void edge_free(struct edge *e);
+
+/* edge_add - S1, S2 (+=) of the waves and the disc at theta[n], degrees in [0, 180]. Returns 0, or -1 when memory ran out. */
+int edge_add(const struct edge *e, int n, const double *theta, double complex *s1, double complex *s2);
+
+#endif

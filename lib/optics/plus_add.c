@@ -1,0 +1,87 @@
+#include "optics/plus_rays.h"
+
+#include "optics/airy.h"
+
+#include <math.h>
+
+static double share(const struct edge *e, int p, double u)
+{
+	return 1 - window_at(&e->window[p], u);
+}
+
+static void add_rainbow(const struct plus_rainbow *r, const struct edge *e, double complex *s1, double complex *s2)
+{
+	double x = e->x, third = cbrt(x), wa = share(e, r->p, r->ua), wb = share(e, r->p, r->ub);
+	if (wa == 0 && wb == 0)
+		return;
+	struct airy airy = airy_real(-third * third * r->zeta);
+	double complex fa = wa, fb = wb, common = cexp(I * x * r->path);
+	if (r->fade_a != 0 || r->fade_b != 0) {
+		fa *= cexp(x * r->fade_a);
+		fb *= cexp(x * r->fade_b);
+	}
+	common *= x * sqrt(third) / sqrt(fmax(r->sine, 0.5 / (x * r->u)));
+	double complex over = r->over_rho / third;
+	*s1 += common * ((r->a[0] * fa + r->b[0] * fb) * airy.ai + over * (r->b[0] * fb - r->a[0] * fa) * airy.aip);
+	*s2 += common * ((r->a[1] * fa + r->b[1] * fb) * airy.ai + over * (r->b[1] * fb - r->a[1] * fa) * airy.aip);
+}
+
+static void add_glory(const struct plus_glory *g, const struct edge *e, double complex *s1, double complex *s2)
+{
+	double x = e->x, w = share(e, g->p, g->u), z = x * g->z;
+	if (w == 0)
+		return;
+	double b0 = j0(z), b1 = j1(z), b2 = z > 1e-3 ? 2 * b1 / z - b0 : z * z / 8, slope = z > 1e-3 ? b1 - 2 * b2 / z : z / 4;
+	double complex common = w * x * sqrt(x) * exp(-x * g->fade) * cexp(I * x * g->path);
+	int even = g->back;      /* forward S1 + S2 goes with J0, behind S1 - S2 */
+	double complex zero = common * (g->even[even] * b0 + I * g->odd[even] * b1);
+	double complex two = common * (-g->even[!even] * b2 + I * g->odd[!even] * slope);
+	*s1 += zero + two;
+	*s2 += even ? two - zero : zero - two;
+}
+
+static void add_packet(const struct plus_packet *k, const struct edge *e, double s[4][PLUS_WIDTH])
+{
+	const struct window *w = &e->window[k->p];
+	double x = e->x;
+	double all = window_constant(w, k->least, k->most);
+	if (all == 1)
+		return;
+	for (int i = 0; i < PLUS_WIDTH; i++) {
+		double w1 = 0, w2 = 0, w0 = 1;
+		if (all < 0) { int q=w->n-1; while(q>0&&k->u[i]<w->from[q]) q--; w0 = 1 - window_piece(w->zero[q],w->over[q], k->u[i], &w1, &w2); }
+		double t = x * k->path[i] + k->quarters[i];
+		t = (t - 4 * floor(t / 4)) * M_PI_2;
+		double over = x / (x * x + k->hold[i]);
+		double size = k->from[i] > x ? 0 : fmin(x * k->spread[i], x*x/2) * exp(-x * k->fade[i]), c = size * cos(t), d = size * sin(t);
+		double ew = -over * k->e[i] * w2, gw = over * w0, hw = over * w1;
+		for (int j = 0; j < 4; j += 2) {
+			double gr = k->g[j][i] * gw + k->h[j][i] * hw + k->f[j][i] * ew;
+			double gi = k->g[j + 1][i] * gw + k->h[j + 1][i] * hw + k->f[j + 1][i] * ew;
+			double re = k->f[j][i] * w0 - gi, im = k->f[j + 1][i] * w0 + gr;
+			s[j][i] += re * c - im * d;
+			s[j + 1][i] += re * d + im * c;
+		}
+	}
+}
+
+void plus_rays_add(const struct plus_rays *r, const struct edge *e, double complex *s1, double complex *s2)
+{
+	if (e->whole)
+		return;
+	for (int from = 0, b = 0; from < r->n; from += PLUS_WIDTH, b++) {
+		double s[4][PLUS_WIDTH] = { { 0 } };
+		for (size_t k = r->first[b]; k < r->first[b + 1]; k++)
+			add_packet(&r->packet[k], e, s);
+		for (int i = 0; i < PLUS_WIDTH && from + i < r->n; i++) {
+			s1[from + i] += CMPLX(s[0][i], s[1][i]);
+			s2[from + i] += CMPLX(s[2][i], s[3][i]);
+		}
+	}
+	for (int k = 0; k < r->rainbows; k++)
+		if (e->x < r->rainbow[k].below)
+			add_rainbow(&r->rainbow[k], e, &s1[r->rainbow[k].angle], &s2[r->rainbow[k].angle]);
+	for (int k = 0; k < r->glories; k++)
+		if (e->x < r->glory[k].below)
+			add_glory(&r->glory[k], e, &s1[r->glory[k].angle], &s2[r->glory[k].angle]);
+}
