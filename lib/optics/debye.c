@@ -79,14 +79,24 @@ void debye_term(double x, double complex m, double lambda, struct debye *out)
 		if (cimag(m) == 0) {
 			double z = creal(y) / lambda, zeta, q;
 			langer_real(z, &zeta, &q);
-			struct airy a = airy_real(fmin(l * l * zeta, 60));
-			double root = sqrt(sqrt(q)), p = root / l * a.ai;
-			psi = p;
-			psip = p / (2 * creal(y)) - (2 / z) / (root * l * l) * a.aip;
+			double at = l * l * zeta, root = sqrt(sqrt(q)), ai = 1, aip = -sqrt(at) - 0.25 / at;    /* far outside but for a factor */
+			if (at < 30) {
+				struct airy a = airy_real(at);
+				ai = a.ai;
+				aip = a.aip;
+			}
+			psi = root / l * ai;
+			psip = psi / (2 * creal(y)) - (2 / z) / (root * l * l) * aip;
 		} else {
 			double complex z = y / lambda, zeta, q, ai, aip;
 			langer_complex(z, &zeta, &q);
-			airy_complex(l * l * zeta, &ai, &aip);
+			double complex at = l * l * zeta;
+			if (creal(at) < 30) {
+				airy_complex(at, &ai, &aip);
+			} else {
+				ai = 1;
+				aip = -csqrt(at) - 0.25 / at;
+			}
 			double complex root = csqrt(csqrt(q));
 			psi = root / l * ai;
 			psip = psi / (2 * y) - (2 / z) / (root * l * l) * aip;

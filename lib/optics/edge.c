@@ -101,6 +101,7 @@ static void set_windows(struct edge *e)
 	if (begin < 0.05 || (x * fabs(n - 1) < SOFT && x < SOFT_MAX)) {
 		e->whole = 1;
 		e->n = 1;
+		e->disc = 0;           /* Hilb's forms are not for so few waves, and are not needed */
 		for (int p = 0; p <= EDGE_ORDERS + 1; p++)
 			e->window[p] = window_one();
 	}
@@ -131,6 +132,10 @@ static int waves_new(struct edge *e, struct edge_strip *strip, double from, doub
 				rays += w[p] * part;
 			rays += w[EDGE_ORDERS + 1] * part / (1 - d.i[j]);
 			s[j] = -(w[0] * (d.r[j] - beyond) + rays) / 2;
+			if (e->whole) {
+				double complex all = d.r[j] + d.t[j] / (1 - d.i[j]);
+				e->lost += lambda * (1 - creal(all * conj(all)));
+			}
 		}
 		double complex sum = (s[0] + s[1]) * (2 * lambda), difference = (s[1] - s[0]) * (2 * lambda);
 		double missing = beyond ? 0 : w[0] * 2 * lambda;
@@ -179,6 +184,42 @@ void edge_free(struct edge *e)
 	for (int k = 0; k < 2; k++)
 		free(e->strip[k].sum);
 	memset(e, 0, sizeof *e);
+}
+
+double edge_absorption(const struct edge *e)
+{
+	/* Gauss-Legendre on [-1, 1], Abramowitz and Stegun table 25.4 */
+	static const double node[4] = { 0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363 };
+	static const double weight[4] = { 0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763 };
+	double x = e->x, n = creal(e->m), s = cbrt(x / 2) / x, sy = cbrt(n * x / 2) / x, q = 0;
+	if (cimag(e->m) == 0)
+		return 0;
+	if (e->whole)
+		return fmax(e->lost / (x * x), 0);
+	/* panels in the angle of incidence, of the size of the edge near it and near the critical angle */
+	double at[40], turn = n < 1 ? n : 1;
+	int panels = 0;
+	for (int k = 0; k < 8; k++)
+		at[panels++] = sin(asin(turn - 8 * sy) * k / 8);
+	for (int k = -4; k <= 4; k++)
+		at[panels++] = turn + 2 * k * (n < 1 ? sy : s);
+	for (int k = 1; k <= 8 && n < 1; k++)
+		at[panels++] = turn + 8 * sy + (1 - 8 * s - turn - 8 * sy) * k / 8;
+	for (int k = -3; k <= 4 && n < 1; k++)
+		at[panels++] = 1 + 2 * k * s;
+	for (int k = 0; k + 1 < panels; k++)
+		for (int i = 0; i < 8; i++) {
+			double half = (at[k + 1] - at[k]) / 2, u = (at[k] + at[k + 1]) / 2 + half * (i < 4 ? -node[3 - i] : node[i - 4]);
+			struct debye d;
+			if (half <= 0)
+				continue;
+			debye_term(x, e->m, x * u, &d);
+			for (int j = 0; j < 2; j++) {
+				double r = creal(d.r[j] * conj(d.r[j])), t = creal(d.t[j] * conj(d.t[j])), in = creal(d.i[j] * conj(d.i[j]));
+				q += half * (i < 4 ? weight[3 - i] : weight[i - 4]) * u * (1 - r - (t > 0 ? t / (1 - in) : 0));
+			}
+		}
+	return fmax(q, 0);
 }
 
 /* pi_l and v_l = pi_l - pi_(l-1) at l, theta in [0, pi/2], c = 1 - cos theta: uniform Bessel forms of d^l_10 and d^l_11. */

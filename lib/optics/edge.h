@@ -26,6 +26,7 @@ struct edge {
 	double x;
 	double complex m;
 	int disc;                  /* the disc diffracts waves 1 .. disc */
+	double lost;               /* of all waves in the strips, sum (2l + 1)(1 - |S|^2)/2 */
 	int whole;                 /* W = 1 everywhere: there is nothing for rays to do */
 	struct window window[EDGE_ORDERS + 2];
 	int n;
@@ -61,6 +62,9 @@ double window_constant(const struct window *w, double least, double most);
 /* edge_new - windows and waves for a size. Returns 0, or -1 when memory ran out (there is nothing to free then). */
 int edge_new(struct edge *e, double x, double complex m);
 void edge_free(struct edge *e);
+
+/* edge_absorption - efficiency of absorption: u (1 - |S|^2) over all impact parameters, ripple averaged where S is not summed. */
+double edge_absorption(const struct edge *e);
 
 /* edge_add - S1, S2 (+=) of the waves and the disc at theta[n], degrees in [0, 180]. Returns 0, or -1 when memory ran out. */
 int edge_add(const struct edge *e, int n, const double *theta, double complex *s1, double complex *s2);

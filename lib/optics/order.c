@@ -94,7 +94,10 @@ void order_terms(int p, double complex m, double u, double theta, int sigma, int
 		slope = 2 * p * (acos(fmin(at / n, 1)) - cacos(at / m));
 		bend = 2 * p * (1 / csqrt(m * m - at * at) - 1 / sqrt(n * n - at * at));
 		double complex more = -slope * slope / (2 * p2);
-		out->path += CMPLX(creal(more), fmax(cimag(more), -cimag(out->path)));
+		if (cabs(more) < 0.2 * cimag(out->path))     /* else a caustic, or too little light to matter */
+			out->path += more;
+		else
+			slope = bend = 0;
 	}
 	double tilt = tan(theta / 2), cot = 1 / tan(theta), plus = tilt + cot / 8, minus = -1 / tilt + cot / 8;
 	out->e = 1 / (2 * p2);

@@ -100,16 +100,17 @@ static double rainbow(const struct direction *d, double tau, int eighths, struct
 }
 
 /* Two rays that meet on an axis off-centre; plus is the one whose phase grows with the distance from it. */
-static double glory(const struct direction *d, int back, const struct ray *plus, const struct order_terms *tp,
-                    const struct ray *minus, const struct order_terms *tm, struct plus_glory *out)
+static double glory(const struct direction *d, int back, const struct ray *plus, const struct ray *minus, struct plus_glory *out)
 {
-	double z = (creal(tp->path) - creal(tm->path)) / 2, ratio = d->sine > 0 ? z / d->sine : plus->sin_i;
+	double complex path = order_path(d->p, d->m, plus->sin_i), other = order_path(d->p, d->m, minus->sin_i);
+	double z = fmax(creal(path - other) / 2, 0), ratio = d->sine > 0 ? z / d->sine : plus->sin_i;
 	double complex half[2][2];      /* [plus, minus][(S1+S2)/2, (S1-S2)/2] */
-	*out = (struct plus_glory){ .angle = d->angle, .p = d->p, .back = back, .path = (creal(tp->path) + creal(tm->path)) / 2, .z = z,
-		.u = (plus->sin_i + minus->sin_i) / 2, .fade = (cimag(tp->path) + cimag(tm->path)) / 2 };
+	*out = (struct plus_glory){ .angle = d->angle, .p = d->p, .back = back, .path = creal(path + other) / 2, .z = z,
+		.u = (plus->sin_i + minus->sin_i) / 2, .fade = cimag(path + other) / 2 };
 	for (int k = 0; k < 2; k++) {
 		const struct ray *r = k ? minus : plus;
-		const double complex *f = k ? tm->f : tp->f;
+		double complex f[2];
+		order_amplitude(d->p, d->m, r->sin_i, 0, f);
 		double complex scale = -sqrt(r->sin_i * r->cos_i / r->slope * M_PI_2 * ratio) * eighth(k ? r->eighths - 1 : r->eighths + 1);
 		half[k][0] = scale * (f[0] + f[1]) / 2;
 		half[k][1] = scale * (f[0] - f[1]) / 2;
@@ -140,12 +141,8 @@ static double find_glory(struct direction *d, const struct branch *b, int side, 
 	if (own && turns == 0 && b->central)
 		return 0;
 	int plus = front ? r->sigma > 0 : r->sigma < 0;
-	struct order_terms one, two;
 	struct plus_glory g;
-	double theta = d->theta * (M_PI / 180);
-	order_terms(d->p, d->m, r->sin_i, theta, r->sigma, 0, &one);
-	order_terms(d->p, d->m, other.sin_i, theta, other.sigma, 0, &two);
-	double from = plus ? glory(d, !front, r, &one, &other, &two, &g) : glory(d, !front, &other, &two, r, &one, &g);
+	double from = plus ? glory(d, !front, r, &other, &g) : glory(d, !front, &other, r, &g);
 	if (plus) {
 		if (grow(&out->glory, out->glories, sizeof *out->glory))
 			*failed = 1;
