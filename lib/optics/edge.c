@@ -11,7 +11,6 @@
 #define WIDE 40        /* and begins so many inside it */
 #define NARROW 3       /* where W reaches 1 */
 #define TURN 6         /* the same at the turning point inside a bubble */
-#define LANES 32
 #define CLEAR 12       /* widths of W's rise that leave a rainbow outside */
 
 #define FOCUS 4        /* an index so near p, in units of 1/sqrt x, focuses the central rays of order p: they are waves too */
@@ -107,11 +106,14 @@ static void set_windows(struct edge *e)
 	}
 }
 
-static int waves_new(struct edge *e, struct edge_strip *strip, double from, double to, const struct window *only)
+#define FAR 24
+
+static int waves_new(struct edge *e, struct edge_strip *strip, double from, double to, double about, const struct window *only)
 {
 	int first = (int)fmax(floor(from * e->x - 0.5), 1), last = (int)fmax(ceil(to * e->x), 2);
 	strip->first = first;
 	strip->n = last - first + 1;
+	strip->about = about * e->x;
 	strip->sum = malloc(6 * (size_t)strip->n * sizeof *strip->sum);
 	if (!strip->sum)
 		return -1;
@@ -146,7 +148,22 @@ static int waves_new(struct edge *e, struct edge_strip *strip, double from, doub
 		strip->sum_behind[2 * k] = creal(sum) + (beyond ? 0 : missing);
 		strip->sum_behind[2 * k + 1] = cimag(sum);
 	}
-	return 0;
+	if (first < FAR)       /* no angle is far from both axes for such long waves */
+		return 0;
+	double *scaled = malloc(6 * (size_t)strip->n * sizeof *scaled);
+	if (!scaled)
+		return -1;
+	for (int k = 0; k < strip->n; k++) {
+		double scale = 1 / sqrt(first + k + 0.5);
+		for (int i = 0; i < 2; i++) {
+			scaled[2 * k + i] = strip->sum[2 * k + i] * scale;
+			scaled[2 * (strip->n + k) + i] = strip->sum_behind[2 * k + i] * scale;
+			scaled[2 * (2 * strip->n + k) + i] = strip->difference[2 * k + i] * scale;
+		}
+	}
+	int failed = spectrum_new(&strip->spectrum, strip->n, (const double *[4]){ scaled, scaled + 2 * strip->n, scaled + 4 * strip->n, NULL });
+	free(scaled);
+	return failed;
 }
 
 int edge_new(struct edge *e, double x, double complex m)
@@ -166,13 +183,13 @@ int edge_new(struct edge *e, double x, double complex m)
 			focus = w->zero[0];
 	}
 	if (e->n == 2) {
-		failed = waves_new(e, &e->strip[0], begin, e->only[0].zero[1], &e->only[0]) ||
-		         waves_new(e, &e->strip[1], e->only[1].zero[0], top, &e->only[1]);
+		failed = waves_new(e, &e->strip[0], begin, e->only[0].zero[1], creal(m), &e->only[0]) ||
+		         waves_new(e, &e->strip[1], e->only[1].zero[0], top, 1, &e->only[1]);
 	} else if (focus > 0 && focus < begin) {
 		e->n = 2;
-		failed = waves_new(e, &e->strip[0], 0, focus, NULL) || waves_new(e, &e->strip[1], begin, top, NULL);
+		failed = waves_new(e, &e->strip[0], 0, focus, focus / 2, NULL) || waves_new(e, &e->strip[1], begin, top, 1, NULL);
 	} else {
-		failed = waves_new(e, &e->strip[0], focus > 0 ? 0 : begin, top, NULL);
+		failed = waves_new(e, &e->strip[0], focus > 0 ? 0 : begin, top, creal(m) < 1 ? (begin + 1) / 2 : 1, NULL);
 	}
 	if (failed)
 		edge_free(e);
@@ -181,8 +198,10 @@ int edge_new(struct edge *e, double x, double complex m)
 
 void edge_free(struct edge *e)
 {
-	for (int k = 0; k < 2; k++)
+	for (int k = 0; k < 2; k++) {
 		free(e->strip[k].sum);
+		spectrum_free(&e->strip[k].spectrum);
+	}
 	memset(e, 0, sizeof *e);
 }
 
@@ -222,8 +241,30 @@ double edge_absorption(const struct edge *e)
 	return fmax(q, 0);
 }
 
-/* pi_l and v_l = pi_l - pi_(l-1) at l, theta in [0, pi/2], c = 1 - cos theta: uniform Bessel forms of d^l_10 and d^l_11. */
-static void angular_start(int l, double theta, double c, double *p, double *v)
+void edge_aim(int n, const double *theta, struct edge_packet *out)
+{
+	for (int b = 0; b * EDGE_WIDTH < n; b++) {
+		struct edge_packet *k = &out[b];
+		k->sine = 1;
+		for (int i = 0; i < EDGE_WIDTH; i++) {
+			double t = theta[b * EDGE_WIDTH + i < n ? b * EDGE_WIDTH + i : n - 1], f = fmin(t, 180 - t) * (M_PI / 180);
+			double sine = sin(f), cosine = t > 90 ? -cos(f) : cos(f), r = t * (M_PI / 180);
+			k->theta[i] = r;
+			k->folded[i] = f;
+			k->behind[i] = t > 90;
+			k->sine = fmin(k->sine, sine);
+			sine = fmax(sine, 1e-12);      /* nearer nobody looks at the rest */
+			k->root[i] = sqrt(2 / (M_PI * sine));
+			k->plus[i] = (1 - cosine) / sine + cosine / (8 * sine);
+			k->minus[i] = -(1 + cosine) / sine + cosine / (8 * sine);
+			k->bend[i] = r > 1e-3 ? 1 / r - cosine / sine : r / 3;
+			k->slope[i] = 1 / sine;
+			k->slant[i] = 1 / (1 + cos(f));
+		}
+	}
+}
+
+void edge_start(int l, double theta, double *p, double *v)
 {
 	double nu = l + 0.5, both = l * (l + 1.0);
 	if (l == 1 || theta == 0) {
@@ -231,49 +272,15 @@ static void angular_start(int l, double theta, double c, double *p, double *v)
 		*v = l;
 		return;
 	}
-	double st = sin(theta), cot = cos(theta) / st, q = sqrt(theta / st);
+	double st = sin(theta), half = sin(theta / 2), cot = cos(theta) / st, q = sqrt(theta / st);
 	double z1 = nu * theta + 0.375 * (cot - 1 / theta) / nu, z0 = nu * theta - (tan(theta / 2) + 0.125 * (cot - 1 / theta)) / nu;
 	*p = sqrt(both) * q * j1(z1) / st;
-	*v = (both * q * j0(z0) + l * c * *p) / (l + 1);
+	*v = (both * q * j0(z0) + l * 2 * half * half * *p) / (l + 1);
 }
 
-/* The strip's sums at LANES angles: S1 + S2 and S1 - S2, in the front half by theta, behind by pi - theta. */
-static void strip_direct(const struct edge_strip *strip, int behind, const double *theta, double out[4][LANES])
+double edge_disc(int n, double theta)
 {
-	double c[LANES], p[LANES], v[LANES], s0[LANES] = { 0 }, s1[LANES] = { 0 }, s2[LANES] = { 0 }, s3[LANES] = { 0 };
-	const double *sum = behind ? strip->sum_behind : strip->sum, *difference = strip->difference;
-	for (int i = 0; i < LANES; i++) {
-		double h = sin(theta[i] / 2);
-		c[i] = 2 * h * h;
-		angular_start(strip->first, theta[i], c[i], &p[i], &v[i]);
-	}
-	for (int k = 0; k < strip->n; k++) {
-		double f = strip->first + k, f1 = f + 1, k1 = f1 / f, k2 = (2 * f + 1) / f, norm = 1 / (f * f1);
-		double sign = behind && (strip->first + k) % 2 == 0 ? -norm : norm;
-		double xr = sum[2 * k] * sign, xi = sum[2 * k + 1] * sign, yr = difference[2 * k] * sign, yi = difference[2 * k + 1] * sign;
-#pragma omp simd
-		for (int i = 0; i < LANES; i++) {
-			double cp = c[i] * p[i], plus = f1 * v[i] - f * cp, minus = 2 * p[i] - plus;
-			double s = behind ? minus : plus, d = behind ? plus : minus;
-			s0[i] += xr * s;
-			s1[i] += xi * s;
-			s2[i] += yr * d;
-			s3[i] += yi * d;
-			v[i] = k1 * v[i] - k2 * cp;
-			p[i] += v[i];
-		}
-	}
-	for (int i = 0; i < LANES; i++) {
-		out[0][i] = s0[i];
-		out[1][i] = s1[i];
-		out[2][i] = s2[i];
-		out[3][i] = s3[i];
-	}
-}
-
-/* sum_(l <= n) (2l+1)/(l(l+1)) (pi_l + tau_l) = P'_n + P'_(n+1) - (P_n + P_(n+1))/(1 + cos theta), Hilb's forms for P. */
-static double disc(int n, double theta)
-{
+	/* P'_n + P'_(n+1) - (P_n + P_(n+1))/(1 + cos theta) */
 	double sum = 0, st = sin(theta), bend = theta > 1e-3 ? 1 / theta - cos(theta) / st : theta / 3, q = theta > 0 ? sqrt(theta / st) : 1;
 	for (int l = n; l <= n + 1; l++) {
 		double nu = l + 0.5, z = nu * theta + bend / (8 * nu), v = j0(z);
@@ -281,36 +288,4 @@ static double disc(int n, double theta)
 		sum += q * (slope - v / (1 + cos(theta)));
 	}
 	return sum;
-}
-
-int edge_add(const struct edge *e, int n, const double *theta, double complex *s1, double complex *s2)
-{
-	for (int k = 0; k < n; k += LANES)
-		for (int behind = 0; behind < 2; behind++) {
-			double t[LANES], out[4][LANES];
-			int at[LANES], used = 0;
-			for (int i = k; i < n && i < k + LANES; i++)
-				if ((theta[i] > 90) == behind) {
-					t[used] = (behind ? 180 - theta[i] : theta[i]) * (M_PI / 180);
-					at[used++] = i;
-				}
-			if (!used)
-				continue;
-			for (int i = used; i < LANES; i++)
-				t[i] = t[0];
-			for (int s = 0; s < e->n; s++) {
-				strip_direct(&e->strip[s], behind, t, out);
-				for (int i = 0; i < used; i++) {
-					double complex sum = CMPLX(out[0][i], out[1][i]), difference = CMPLX(out[2][i], out[3][i]);
-					s1[at[i]] += (sum + difference) / 2;
-					s2[at[i]] += (sum - difference) / 2;
-				}
-			}
-			for (int i = 0; !behind && i < used; i++) {
-				double d = e->disc ? disc(e->disc, t[i]) / 2 : 0;
-				s1[at[i]] += d;
-				s2[at[i]] += d;
-			}
-		}
-	return 0;
 }

@@ -6,6 +6,8 @@
 #define OPTICS_EDGE_H
 
 #include "base/cmplx.h"
+#include "optics/lane_math.h"
+#include "optics/spectrum.h"
 
 #define EDGE_ORDERS 8      /* orders 0 .. 8 have windows of their own; those above are in no ray and share one */
 
@@ -19,7 +21,9 @@ struct window {
 
 struct edge_strip {
 	int first, n;              /* waves l = first .. first + n - 1 */
+	double about;              /* l + 1/2 where most of the light is */
 	double *sum, *sum_behind, *difference;    /* coefficients of S1 + S2 (the disc's wave removed; not removed) and S1 - S2, re, im */
+	struct spectrum spectrum;  /* of the same over sqrt(l + 1/2); memory NULL: not worth its while */
 };
 
 struct edge {
@@ -38,8 +42,8 @@ struct edge {
 static inline double window_piece(double zero, double over, double u, double *first, double *second)
 {
 	double t = (u - zero) * over;
-	t = t > 0 ? t : 0;
-	t = t < 1 ? t : 1;
+	t = lane_select(t, 0, 0, t);
+	t = lane_select(t, 1, t, 1);
 	double r = 1 - t, tr = t * r;
 	*first = 140 * tr * tr * tr * over;
 	*second = 420 * tr * tr * (r - t) * (over * over);
@@ -66,7 +70,28 @@ void edge_free(struct edge *e);
 /* edge_absorption - efficiency of absorption: u (1 - |S|^2) over all impact parameters, ripple averaged where S is not summed. */
 double edge_absorption(const struct edge *e);
 
-/* edge_add - S1, S2 (+=) of the waves and the disc at theta[n], degrees in [0, 180]. Returns 0, or -1 when memory ran out. */
-int edge_add(const struct edge *e, int n, const double *theta, double complex *s1, double complex *s2);
+#define EDGE_WIDTH 8
+
+/* What waves need to know about EDGE_WIDTH neighbouring angles. */
+struct edge_packet {
+	double theta[EDGE_WIDTH], folded[EDGE_WIDTH];     /* rad; from the nearer axis */
+	double behind[EDGE_WIDTH];                        /* 1 beyond 90 degrees, else 0 */
+	double root[EDGE_WIDTH];                          /* sqrt(2/(pi sin theta)) */
+	double plus[EDGE_WIDTH], minus[EDGE_WIDTH];       /* c of order.h, of S1 + S2 and S1 - S2 */
+	double bend[EDGE_WIDTH], slope[EDGE_WIDTH], slant[EDGE_WIDTH];    /* of the disc: 1/theta - cot theta, 1/sin, 1/(1 + cos) */
+	double sine;                                      /* the least */
+};
+
+/* edge_aim - packets for theta[n], degrees in [0, 180]; the last is filled up with its last angle. out has room for
+ * (n + EDGE_WIDTH - 1)/EDGE_WIDTH. */
+void edge_aim(int n, const double *theta, struct edge_packet *out);
+
+/* edge_start - pi_l and pi_l - pi_(l-1) at an angle in [0, pi/2] by uniform Bessel forms, from where recurrences go on upward. */
+void edge_start(int l, double theta, double *p, double *v);
+
+/* edge_disc - sum of (2l+1)/(l(l+1))
+ * (pi_l + tau_l), l = 1 .. n, the amplitude S1 + S2 of a disc, at theta (rad), by Hilb's
+ * forms. */
+double edge_disc(int n, double theta);
 
 #endif

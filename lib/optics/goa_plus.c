@@ -1,6 +1,6 @@
 #include "optics/goa_plus.h"
 
-#include "optics/plus_rays.h"
+#include "optics/goa_lanes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,6 +8,7 @@
 
 struct goa_plus {
 	double complex m;
+	const struct goa_lanes *lanes;
 	struct plus_rays axes, asked;
 };
 
@@ -17,7 +18,8 @@ struct goa_plus *goa_plus_new(double complex m)
 	if (!g)
 		return NULL;
 	g->m = m;
-	if (plus_rays_find(m, 2, (double[]){ 0, 180 }, &g->axes)) {
+	g->lanes = goa_lanes();
+	if (!g->lanes || plus_rays_find(m, 2, (double[]){ 0, 180 }, &g->axes)) {
 		free(g);
 		return NULL;
 	}
@@ -41,14 +43,20 @@ int goa_plus_aim(struct goa_plus *g, int n, const double *theta)
 	return plus_rays_find(g->m, n, theta, &g->asked);
 }
 
-static int amplitudes(const struct plus_rays *r, const struct edge *e, double complex *s1, double complex *s2)
+static void amplitudes(const struct goa_lanes *lanes, const struct plus_rays *r, const struct edge *e, double complex *s1, double complex *s2)
 {
-	for (int k = 0; k < r->n; k++)
-		s1[k] = s2[k] = 0;
-	if (edge_add(e, r->n, r->theta, s1, s2))
-		return -1;
-	plus_rays_add(r, e, s1, s2);
-	return 0;
+	for (int b = 0, from = 0; from < r->n; b++, from += PLUS_WIDTH) {
+		double s[4][PLUS_WIDTH] = { { 0 } };
+		lanes->waves(e, &r->edge[b], s);
+		if (!e->whole)
+			lanes->plus(&r->packet[r->first[b]], r->first[b + 1] - r->first[b], e, s);
+		for (int i = 0; i < PLUS_WIDTH && from + i < r->n; i++) {
+			s1[from + i] = CMPLX(s[0][i], s[1][i]);
+			s2[from + i] = CMPLX(s[2][i], s[3][i]);
+		}
+	}
+	if (!e->whole)
+		plus_rays_pairs(r, e, s1, s2);
 }
 
 int goa_plus_at(struct goa_plus *g, double x, double complex *s1, double complex *s2, struct efficiencies *q)
@@ -58,15 +66,14 @@ int goa_plus_at(struct goa_plus *g, double x, double complex *s1, double complex
 	*q = (struct efficiencies){ 0 };
 	if (edge_new(&e, x, g->m))
 		return -1;
-	int failed = amplitudes(&g->asked, &e, s1, s2) || amplitudes(&g->axes, &e, axis1, axis2);
-	if (!failed) {
-		q->ext = 4 * creal(axis1[0]) / (x * x);
-		q->abs = edge_absorption(&e);
-		q->sca = q->ext - q->abs;
-		q->back = 4 * creal(axis1[1] * conj(axis1[1])) / (x * x);
-		if (!(q->sca > 0))      /* far from where this holds */
-			q->sca = 1;
-	}
+	amplitudes(g->lanes, &g->asked, &e, s1, s2);
+	amplitudes(g->lanes, &g->axes, &e, axis1, axis2);
+	q->ext = 4 * creal(axis1[0]) / (x * x);
+	q->abs = edge_absorption(&e);
+	q->sca = q->ext - q->abs;
+	q->back = 4 * creal(axis1[1] * conj(axis1[1])) / (x * x);
+	if (!(q->sca > 0))      /* far from where this holds */
+		q->sca = 1;
 	edge_free(&e);
-	return failed ? -1 : 0;
+	return 0;
 }

@@ -246,8 +246,10 @@ int plus_rays_find(double complex m, int n, const double *theta, struct plus_ray
 	out->n = n;
 	out->theta = malloc((size_t)(n ? n : 1) * sizeof *out->theta);
 	out->first = malloc(((size_t)blocks + 1) * sizeof *out->first);
-	if (!d || !out->theta || !out->first)
+	out->edge = malloc((size_t)(blocks ? blocks : 1) * sizeof *out->edge);
+	if (!d || !out->theta || !out->first || !out->edge)
 		goto no_memory;
+	edge_aim(n, theta, out->edge);
 	memcpy(out->theta, theta, (size_t)n * sizeof *theta);
 	for (int b = 0; b < blocks; b++) {
 		int lanes = n - b * PLUS_WIDTH < PLUS_WIDTH ? n - b * PLUS_WIDTH : PLUS_WIDTH;
@@ -301,6 +303,7 @@ void plus_rays_free(struct plus_rays *r)
 	free(r->theta);
 	free(r->first);
 	free(r->packet);
+	free(r->edge);
 	free(r->rainbow);
 	free(r->glory);
 	memset(r, 0, sizeof *r);

@@ -45,6 +45,7 @@ struct plus_rays {
 	double *theta;
 	size_t *first;             /* first packet of each PLUS_WIDTH angles, one more than there are such */
 	struct plus_packet *packet;
+	struct edge_packet *edge;  /* of the same angles */
 	int rainbows, glories;
 	struct plus_rainbow *rainbow;
 	struct plus_glory *glory;
@@ -54,7 +55,7 @@ struct plus_rays {
 int plus_rays_find(double complex m, int n, const double *theta, struct plus_rays *out);
 void plus_rays_free(struct plus_rays *r);
 
-/* plus_rays_add - S1, S2 (+=) of all rays for the size and windows of an edge. */
-void plus_rays_add(const struct plus_rays *r, const struct edge *e, double complex *s1, double complex *s2);
+/* plus_rays_pairs - S1, S2 (+=) of the pairs, for the size and windows of an edge. */
+void plus_rays_pairs(const struct plus_rays *r, const struct edge *e, double complex *s1, double complex *s2);
 
 #endif

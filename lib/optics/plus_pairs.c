@@ -40,44 +40,8 @@ static void add_glory(const struct plus_glory *g, const struct edge *e, double c
 	*s2 += even ? two - zero : zero - two;
 }
 
-static void add_packet(const struct plus_packet *k, const struct edge *e, double s[4][PLUS_WIDTH])
+void plus_rays_pairs(const struct plus_rays *r, const struct edge *e, double complex *s1, double complex *s2)
 {
-	const struct window *w = &e->window[k->p];
-	double x = e->x;
-	double all = window_constant(w, k->least, k->most);
-	if (all == 1)
-		return;
-	for (int i = 0; i < PLUS_WIDTH; i++) {
-		double w1 = 0, w2 = 0, w0 = 1;
-		if (all < 0) { int q=w->n-1; while(q>0&&k->u[i]<w->from[q]) q--; w0 = 1 - window_piece(w->zero[q],w->over[q], k->u[i], &w1, &w2); }
-		double t = x * k->path[i] + k->quarters[i];
-		t = (t - 4 * floor(t / 4)) * M_PI_2;
-		double over = x / (x * x + k->hold[i]);
-		double size = k->from[i] > x ? 0 : fmin(x * k->spread[i], x*x/2) * exp(-x * k->fade[i]), c = size * cos(t), d = size * sin(t);
-		double ew = -over * k->e[i] * w2, gw = over * w0, hw = over * w1;
-		for (int j = 0; j < 4; j += 2) {
-			double gr = k->g[j][i] * gw + k->h[j][i] * hw + k->f[j][i] * ew;
-			double gi = k->g[j + 1][i] * gw + k->h[j + 1][i] * hw + k->f[j + 1][i] * ew;
-			double re = k->f[j][i] * w0 - gi, im = k->f[j + 1][i] * w0 + gr;
-			s[j][i] += re * c - im * d;
-			s[j + 1][i] += re * d + im * c;
-		}
-	}
-}
-
-void plus_rays_add(const struct plus_rays *r, const struct edge *e, double complex *s1, double complex *s2)
-{
-	if (e->whole)
-		return;
-	for (int from = 0, b = 0; from < r->n; from += PLUS_WIDTH, b++) {
-		double s[4][PLUS_WIDTH] = { { 0 } };
-		for (size_t k = r->first[b]; k < r->first[b + 1]; k++)
-			add_packet(&r->packet[k], e, s);
-		for (int i = 0; i < PLUS_WIDTH && from + i < r->n; i++) {
-			s1[from + i] += CMPLX(s[0][i], s[1][i]);
-			s2[from + i] += CMPLX(s[2][i], s[3][i]);
-		}
-	}
 	for (int k = 0; k < r->rainbows; k++)
 		if (e->x < r->rainbow[k].below)
 			add_rainbow(&r->rainbow[k], e, &s1[r->rainbow[k].angle], &s2[r->rainbow[k].angle]);

@@ -1,0 +1,229 @@
+/* One build of the loops: compiled for each processor, GOA_LANES the name. */
+#include "optics/goa_lanes.h"
+
+#include "optics/lane_math.h"
+
+#include <math.h>
+
+#define FAR 16     /* (l + 1/2) sin theta of every wave from which on angular functions are cosines */
+
+/* Without a window: none of these rays is summed as waves. */
+static void plus_free(const struct plus_packet *k, double x, double s[4][PLUS_WIDTH])
+{
+	double half = x * x / 2;
+#pragma omp simd
+	for (int i = 0; i < PLUS_WIDTH; i++) {
+		double sine, cosine, over = x / (x * x + k->hold[i]), size = x * k->spread[i];
+		lane_sincos(x * k->path[i] + k->quarters[i], &sine, &cosine);
+		size = lane_select(size, half, size, half);
+		size = lane_select(x, k->from[i], 0, size * lane_decay(x * k->fade[i]));
+		double c = size * cosine, d = size * sine;
+		double re1 = k->f[0][i] - k->g[1][i] * over, im1 = k->f[1][i] + k->g[0][i] * over;
+		double re2 = k->f[2][i] - k->g[3][i] * over, im2 = k->f[3][i] + k->g[2][i] * over;
+		s[0][i] += re1 * c - im1 * d;
+		s[1][i] += re1 * d + im1 * c;
+		s[2][i] += re2 * c - im2 * d;
+		s[3][i] += re2 * d + im2 * c;
+	}
+}
+
+static void plus_windowed(const struct plus_packet *k, const struct window *w, double x, double s[4][PLUS_WIDTH])
+{
+	double half = x * x / 2;
+	/* pieces that are not there begin beyond every u */
+	const double from1 = w->n > 1 ? w->from[1] : 2, from2 = w->n > 2 ? w->from[2] : 2;
+	const double zero0 = w->zero[0], zero1 = w->zero[1], zero2 = w->zero[2], over0 = w->over[0], over1 = w->over[1], over2 = w->over[2];
+#pragma omp simd
+	for (int i = 0; i < PLUS_WIDTH; i++) {
+		double sine, cosine, over = x / (x * x + k->hold[i]), size = x * k->spread[i], u = k->u[i], w1, w2;
+		double zero = lane_select(u, from1, zero0, lane_select(u, from2, zero1, zero2));
+		double slope = lane_select(u, from1, over0, lane_select(u, from2, over1, over2));
+		double rest = 1 - window_piece(zero, slope, u, &w1, &w2);
+		lane_sincos(x * k->path[i] + k->quarters[i], &sine, &cosine);
+		size = lane_select(size, half, size, half);
+		size = lane_select(x, k->from[i], 0, size * lane_decay(x * k->fade[i]));
+		double c = size * cosine, d = size * sine, g = over * rest, h = over * w1, f = -over * k->e[i] * w2;
+		double re1 = k->f[0][i] * rest - (k->g[1][i] * g + k->h[1][i] * h + k->f[1][i] * f);
+		double im1 = k->f[1][i] * rest + (k->g[0][i] * g + k->h[0][i] * h + k->f[0][i] * f);
+		double re2 = k->f[2][i] * rest - (k->g[3][i] * g + k->h[3][i] * h + k->f[3][i] * f);
+		double im2 = k->f[3][i] * rest + (k->g[2][i] * g + k->h[2][i] * h + k->f[2][i] * f);
+		s[0][i] += re1 * c - im1 * d;
+		s[1][i] += re1 * d + im1 * c;
+		s[2][i] += re2 * c - im2 * d;
+		s[3][i] += re2 * d + im2 * c;
+	}
+}
+
+static void plus(const struct plus_packet *k, size_t n, const struct edge *e, double s[4][PLUS_WIDTH])
+{
+	for (const struct plus_packet *end = k + n; k < end; k++) {
+		const struct window *w = &e->window[k->p];
+		double all = window_constant(w, k->least, k->most);
+		if (all == 0)
+			plus_free(k, e->x, s);
+		else if (all < 0)
+			plus_windowed(k, w, e->x, s);
+	}
+}
+
+/* The partial waves of a strip one by one, in the front half by theta, behind by pi - theta; out: S1 + S2 re, im, S1 - S2 re, im. */
+static void direct(const struct edge_strip *strip, int behind, const double *theta, double out[4][EDGE_WIDTH])
+{
+	double c[EDGE_WIDTH], p[EDGE_WIDTH], v[EDGE_WIDTH], sr[EDGE_WIDTH] = { 0 }, si[EDGE_WIDTH] = { 0 }, dr[EDGE_WIDTH] = { 0 }, di[EDGE_WIDTH] = { 0 };
+	/* behind, pi_l + tau_l and pi_l - tau_l change places, with (-1)^(l-1) */
+	const double *with_plus = behind ? strip->difference : strip->sum, *with_minus = behind ? strip->sum_behind : strip->difference;
+	for (int i = 0; i < EDGE_WIDTH; i++) {
+		double h = sin(theta[i] / 2);
+		c[i] = 2 * h * h;
+		edge_start(strip->first, theta[i], &p[i], &v[i]);
+	}
+	for (int k = 0; k < strip->n; k++) {
+		int l = strip->first + k;
+		double f = l, f1 = f + 1, k1 = f1 / f, k2 = (2 * f + 1) / f, norm = (behind && l % 2 == 0 ? -1 : 1) / (f * f1);
+		double xr = with_plus[2 * k] * norm, xi = with_plus[2 * k + 1] * norm, yr = with_minus[2 * k] * norm, yi = with_minus[2 * k + 1] * norm;
+#pragma omp simd
+		for (int i = 0; i < EDGE_WIDTH; i++) {
+			double cp = c[i] * p[i], plus = f1 * v[i] - f * cp, minus = 2 * p[i] - plus;
+			sr[i] += xr * plus;
+			si[i] += xi * plus;
+			dr[i] += yr * minus;
+			di[i] += yi * minus;
+			v[i] = k1 * v[i] - k2 * cp;
+			p[i] += v[i];
+		}
+	}
+	for (int i = 0; i < EDGE_WIDTH; i++) {
+		out[behind ? 2 : 0][i] = sr[i];
+		out[behind ? 3 : 1][i] = si[i];
+		out[behind ? 0 : 2][i] = dr[i];
+		out[behind ? 1 : 3][i] = di[i];
+	}
+}
+
+/* Near an axis. */
+static void near_axis(const struct edge *e, const struct edge_packet *k, double s[4][EDGE_WIDTH])
+{
+	for (int behind = 0; behind < 2; behind++) {
+		int any = 0;
+		for (int i = 0; i < EDGE_WIDTH; i++)
+			any |= k->behind[i] == behind;
+		for (int strip = 0; any && strip < e->n; strip++) {
+			double out[4][EDGE_WIDTH];
+			direct(&e->strip[strip], behind, k->folded, out);
+			for (int i = 0; i < EDGE_WIDTH; i++)
+				if (k->behind[i] == behind) {
+					s[0][i] += (out[0][i] + out[2][i]) / 2;
+					s[1][i] += (out[1][i] + out[3][i]) / 2;
+					s[2][i] += (out[0][i] - out[2][i]) / 2;
+					s[3][i] += (out[1][i] - out[3][i]) / 2;
+				}
+		}
+	}
+	for (int i = 0; e->disc && i < EDGE_WIDTH; i++)
+		if (!k->behind[i]) {
+			double d = edge_disc(e->disc, k->theta[i]) / 2;
+			s[0][i] += d;
+			s[2][i] += d;
+		}
+}
+
+/* The spectrum's sums number which and 2 at phi and -phi (in rows): re, im of each. */
+static void look_up(const struct spectrum *spectrum, double at, int which, double out[8])
+{
+	double weight[SPECTRUM_TAPS], up[8] = { 0 }, down[8] = { 0 };
+	double floor_at = (at - 0.5 + LANE_ROUND) - LANE_ROUND, part = at - floor_at;
+	int j = (int)floor_at;
+#pragma omp simd
+	for (int t = 0; t < SPECTRUM_TAPS; t++) {
+		double z = (t - 3 - part) * 0.25, inside = 1 - z * z;
+		inside = lane_select(0, inside, inside, 0);
+		weight[t] = lane_decay(SPECTRUM_SHAPE * (1 - sqrt(inside)));
+	}
+	int mirrored = (spectrum->size - j) % spectrum->size;
+	const double *above = spectrum->row + 8 * (j - 3), *below = spectrum->row + 8 * (mirrored + 3);
+	for (int t = 0; t < SPECTRUM_TAPS; t++, above += 8, below -= 8)
+#pragma omp simd
+		for (int i = 0; i < 8; i++) {
+			up[i] += weight[t] * above[i];
+			down[i] += weight[t] * below[i];
+		}
+	out[0] = up[which];
+	out[1] = up[which + 4];
+	out[2] = down[which];
+	out[3] = down[which + 4];
+	out[4] = up[2];
+	out[5] = up[6];
+	out[6] = down[2];
+	out[7] = down[6];
+}
+
+/* Away from the axes, where d^l_1,+-1 = sqrt(2/(pi nu sin theta)) cos(nu theta - pi/4 - c/nu), nu = l + 1/2; c/nu linear in nu. */
+static void far_strip(const struct edge_strip *strip, const struct edge_packet *k, double s[4][EDGE_WIDTH])
+{
+	const struct spectrum *spectrum = &strip->spectrum;
+	double nu = strip->about, centre = strip->first + strip->n / 2 + 0.5, value[8][EDGE_WIDTH];
+	for (int i = 0; i < EDGE_WIDTH; i++) {
+		double shifted = k->theta[i] + (k->plus[i] + k->minus[i]) / (2 * nu * nu), out[8];
+		double turns = shifted * (1 / (2 * M_PI));
+		turns -= floor(turns);
+		look_up(spectrum, turns * spectrum->size, k->behind[i] != 0, out);
+		for (int j = 0; j < 8; j++)
+			value[j][i] = out[j];
+	}
+#pragma omp simd
+	for (int i = 0; i < EDGE_WIDTH; i++) {
+		double shift = (k->plus[i] + k->minus[i]) / (2 * nu * nu), base = nu * k->theta[i] + (centre - nu) * (k->theta[i] + shift);
+		double sine, cosine, half = k->root[i] / 2;
+		/* e^(i a) E(phi) + e^(-i a) E(-phi) */
+		lane_sincos((base - k->plus[i] / nu) * M_2_PI - 0.5, &sine, &cosine);
+		double sr = half * (cosine * (value[0][i] + value[2][i]) - sine * (value[1][i] - value[3][i]));
+		double si = half * (cosine * (value[1][i] + value[3][i]) + sine * (value[0][i] - value[2][i]));
+		/* d^l_1,-1 with the other sign */
+		lane_sincos((base - k->minus[i] / nu) * M_2_PI - 0.5, &sine, &cosine);
+		double dr = -half * (cosine * (value[4][i] + value[6][i]) - sine * (value[5][i] - value[7][i]));
+		double di = -half * (cosine * (value[5][i] + value[7][i]) + sine * (value[4][i] - value[6][i]));
+		s[0][i] += (sr + dr) / 2;
+		s[1][i] += (si + di) / 2;
+		s[2][i] += (sr - dr) / 2;
+		s[3][i] += (si - di) / 2;
+	}
+}
+
+/* The disc away from the axes: edge_disc with Hankel's asymptotics (Abramowitz and Stegun 9.2.5 to 9.2.10). */
+static void far_disc(int n, const struct edge_packet *k, double s[4][EDGE_WIDTH])
+{
+#pragma omp simd
+	for (int i = 0; i < EDGE_WIDTH; i++) {
+		double sum = 0;
+		for (int l = n; l <= n + 1; l++) {
+			double nu = l + 0.5, z = nu * k->theta[i] + k->bend[i] / (8 * nu), w = 1 / z, w2 = w * w, sine, cosine;
+			lane_sincos(z * M_2_PI - 0.5, &sine, &cosine);
+			double p0 = 1 + w2 * (-0.0703125 + 0.112152099609375 * w2), q0 = w * (-0.125 + w2 * (0.0732421875 - 0.227108001708984375 * w2));
+			double p1 = 1 + w2 * (0.1171875 - 0.144195556640625 * w2), q1 = w * (0.375 + w2 * (-0.1025390625 + 0.277576446533203125 * w2));
+			double v0 = p0 * cosine - q0 * sine, v1 = p1 * sine + q1 * cosine;
+			sum += sqrt(1 / nu) * ((nu * v1 - k->bend[i] * v0 / 2) * k->slope[i] - v0 * k->slant[i]);
+		}
+		double d = (1 - k->behind[i]) * k->root[i] * sum / 2;
+		s[0][i] += d;
+		s[2][i] += d;
+	}
+}
+
+static void waves(const struct edge *e, const struct edge_packet *k, double s[4][EDGE_WIDTH])
+{
+	int far = 1, front = 0;
+	for (int strip = 0; strip < e->n; strip++)
+		far &= e->strip[strip].spectrum.memory && e->strip[strip].first * k->sine > FAR;
+	if (!far) {
+		near_axis(e, k, s);
+		return;
+	}
+	for (int strip = 0; strip < e->n; strip++)
+		far_strip(&e->strip[strip], k, s);
+	for (int i = 0; i < EDGE_WIDTH; i++)
+		front |= !k->behind[i];
+	if (front && e->disc)
+		far_disc(e->disc, k, s);
+}
+
+const struct goa_lanes GOA_LANES = { plus, waves };

@@ -1,0 +1,24 @@
+/* goa_lanes - the loops of GOA and GOA+ that take the time, each over PLUS_WIDTH angles side by side; one source, compiled for each
+ * processor. All builds give the same bits. */
+#ifndef OPTICS_GOA_LANES_H
+#define OPTICS_GOA_LANES_H
+
+#include "optics/plus_rays.h"
+
+struct goa_lanes {
+	/* rays of GOA+: s += S1 re, im, S2 re, im of n packets */
+	void (*plus)(const struct plus_packet *k, size_t n, const struct edge *e, double s[4][PLUS_WIDTH]);
+	/* waves of GOA+ and the disc they leave: s += the same at the angles of a packet */
+	void (*waves)(const struct edge *e, const struct edge_packet *k, double s[4][EDGE_WIDTH]);
+};
+
+extern const struct goa_lanes goa_lanes_scalar;
+#ifdef __x86_64__
+extern const struct goa_lanes goa_lanes_v2, goa_lanes_v3, goa_lanes_v4;
+#endif
+
+/* goa_lanes - the best for this processor, or what MOTES_CPU in the environment names; NULL where that is none of scalar, v2, v3, v4
+ * or more than this processor can. */
+const struct goa_lanes *goa_lanes(void);
+
+#endif
