@@ -1,6 +1,6 @@
 #include "optics/edge.h"
 
-#include "optics/debye.h"
+#include "optics/goa_lanes.h"
 #include "optics/rays.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 #include <string.h>
 
 #define OUT 6          /* the strip ends so many widths beyond the edge */
-#define WIDE 40        /* and begins so many inside it */
+#define WIDE 38        /* and begins so many inside it */
 #define NARROW 3       /* where W reaches 1 */
 #define TURN 6         /* the same at the turning point inside a bubble */
 #define CLEAR 12       /* widths of W's rise that leave a rainbow outside */
@@ -16,6 +16,12 @@
 #define FOCUS 4        /* an index so near p, in units of 1/sqrt x, focuses the central rays of order p: they are waves too */
 #define SOFT 60        /* for x |n - 1| below this rays are not distinct from what passes by: all is waves, up to x = SOFT_MAX */
 #define SOFT_MAX 2e4
+
+int edge_separable(double x, double complex m, double lambda)
+{
+	double y = creal(m) * x, width = EDGE_TURN * cbrt(y / 2);
+	return lambda < y - width || cimag(m) * x > width;
+}
 
 static struct window window_one(void)
 {
@@ -75,7 +81,7 @@ static void set_windows(struct edge *e)
 	double x = e->x, n = creal(e->m), s = cbrt(x / 2) / x, sy = cbrt(n * x / 2) / x;
 	double wide = 1 - WIDE * s, near = 1 - NARROW * s, turn = n - WIDE * sy, begin = fmin(wide, turn);
 	e->n = 1;
-	if (debye_separable(x, e->m, x * (1 + OUT * s))) {
+	if (edge_separable(x, e->m, x * (1 + OUT * s))) {
 		begin = wide;
 		for (int p = 0; p <= EDGE_ORDERS + 1; p++)
 			own_window(&e->window[p], x, n, p <= EDGE_ORDERS ? p : 0, wide, p <= EDGE_ORDERS ? near : 1 - (WIDE - 15) * s);
@@ -104,76 +110,50 @@ static void set_windows(struct edge *e)
 		for (int p = 0; p <= EDGE_ORDERS + 1; p++)
 			e->window[p] = window_one();
 	}
+	for (int p = 1; p <= EDGE_ORDERS + 1; p++)
+		e->same[p] = !memcmp(&e->window[p], &e->window[p - 1], sizeof e->window[p]);
 }
 
-#define FAR 24
-
-static int waves_new(struct edge *e, struct edge_strip *strip, double from, double to, double about, const struct window *only)
+/* Room for waves l of u from .. to; their coefficients, and the spectrum. */
+static int strip_set(const struct goa_lanes *lanes, struct edge *e, struct edge_strip *strip, double from, double to, double about, const struct window *only)
 {
 	int first = (int)fmax(floor(from * e->x - 0.5), 1), last = (int)fmax(ceil(to * e->x), 2);
+	size_t n = (size_t)(last - first) + 1;
 	strip->first = first;
-	strip->n = last - first + 1;
+	strip->n = (int)n;
 	strip->about = about * e->x;
-	strip->sum = malloc(6 * (size_t)strip->n * sizeof *strip->sum);
-	if (!strip->sum)
-		return -1;
-	strip->sum_behind = strip->sum + 2 * strip->n;
-	strip->difference = strip->sum + 4 * strip->n;
-	for (int k = 0; k < strip->n; k++) {
-		double lambda = first + k + 0.5, u = lambda / e->x, w[EDGE_ORDERS + 2];
-		struct debye d;
-		double complex s[2];
-		int beyond = lambda - 0.5 > e->disc;
-		debye_term(e->x, e->m, lambda, &d);
-		for (int p = 0; p <= EDGE_ORDERS + 1; p++)
-			w[p] = window_at(only ? only : &e->window[p], u);
-		for (int j = 0; j < 2; j++) {
-			/* p = 1 .. 8, then all above; the sum stands as 1/(1 - I) where W is the same for all */
-			double complex part = d.t[j], rays = 0;
-			for (int p = 1; p <= EDGE_ORDERS; p++, part *= d.i[j])
-				rays += w[p] * part;
-			rays += w[EDGE_ORDERS + 1] * part / (1 - d.i[j]);
-			s[j] = -(w[0] * (d.r[j] - beyond) + rays) / 2;
-			if (e->whole) {
-				double complex all = d.r[j] + d.t[j] / (1 - d.i[j]);
-				e->lost += lambda * (1 - creal(all * conj(all)));
-			}
+	if (n > strip->room) {
+		free(strip->sum);
+		strip->room = n + n / 8;
+		strip->sum = malloc(12 * strip->room * sizeof *strip->sum);
+		if (!strip->sum) {
+			strip->room = 0;
+			return -1;
 		}
-		double complex sum = (s[0] + s[1]) * (2 * lambda), difference = (s[1] - s[0]) * (2 * lambda);
-		double missing = beyond ? 0 : w[0] * 2 * lambda;
-		strip->sum[2 * k] = creal(sum);
-		strip->sum[2 * k + 1] = cimag(sum);
-		strip->difference[2 * k] = creal(difference);
-		strip->difference[2 * k + 1] = cimag(difference);
-		strip->sum_behind[2 * k] = creal(sum) + (beyond ? 0 : missing);
-		strip->sum_behind[2 * k + 1] = cimag(sum);
 	}
-	if (first < FAR)       /* no angle is far from both axes for such long waves */
+	strip->sum_behind = strip->sum + 2 * n;
+	strip->difference = strip->sum + 4 * n;
+	e->lost += lanes->coefficients(e, only, strip);
+	strip->spectrum.size = 0;
+	if (first < EDGE_FAR)
 		return 0;
-	double *scaled = malloc(6 * (size_t)strip->n * sizeof *scaled);
-	if (!scaled)
-		return -1;
-	for (int k = 0; k < strip->n; k++) {
-		double scale = 1 / sqrt(first + k + 0.5);
-		for (int i = 0; i < 2; i++) {
-			scaled[2 * k + i] = strip->sum[2 * k + i] * scale;
-			scaled[2 * (strip->n + k) + i] = strip->sum_behind[2 * k + i] * scale;
-			scaled[2 * (2 * strip->n + k) + i] = strip->difference[2 * k + i] * scale;
-		}
+	double *scaled = strip->sum + 6 * n;
+	for (size_t k = 0; k < 3 * n; k++) {
+		double scale = 1 / sqrt(first + (double)(k % n) + 0.5);
+		scaled[2 * k] = strip->sum[2 * k] * scale;
+		scaled[2 * k + 1] = strip->sum[2 * k + 1] * scale;
 	}
-	int failed = spectrum_new(&strip->spectrum, strip->n, (const double *[4]){ scaled, scaled + 2 * strip->n, scaled + 4 * strip->n, NULL });
-	free(scaled);
-	return failed;
+	return spectrum_set(&strip->spectrum, (int)n, (const double *[4]){ scaled, scaled + 2 * n, scaled + 4 * n, NULL });
 }
 
-int edge_new(struct edge *e, double x, double complex m)
+int edge_set(const struct goa_lanes *lanes, struct edge *e, double x, double complex m)
 {
 	double top = 1 + OUT * cbrt(x / 2) / x, begin = 1, focus = 0;
-	int failed;
-	memset(e, 0, sizeof *e);
 	e->x = x;
 	e->m = m;
 	e->disc = (int)x;
+	e->whole = 0;
+	e->lost = 0;
 	set_windows(e);
 	for (int p = 0; p <= EDGE_ORDERS + 1; p++) {
 		const struct window *w = &e->window[p];
@@ -182,18 +162,14 @@ int edge_new(struct edge *e, double x, double complex m)
 		else
 			focus = w->zero[0];
 	}
-	if (e->n == 2) {
-		failed = waves_new(e, &e->strip[0], begin, e->only[0].zero[1], creal(m), &e->only[0]) ||
-		         waves_new(e, &e->strip[1], e->only[1].zero[0], top, 1, &e->only[1]);
-	} else if (focus > 0 && focus < begin) {
+	if (e->n == 2)
+		return strip_set(lanes, e, &e->strip[0], begin, e->only[0].zero[1], creal(m), &e->only[0]) ||
+		         strip_set(lanes, e, &e->strip[1], e->only[1].zero[0], top, 1, &e->only[1]);
+	if (focus > 0 && focus < begin) {
 		e->n = 2;
-		failed = waves_new(e, &e->strip[0], 0, focus, focus / 2, NULL) || waves_new(e, &e->strip[1], begin, top, 1, NULL);
-	} else {
-		failed = waves_new(e, &e->strip[0], focus > 0 ? 0 : begin, top, creal(m) < 1 ? (begin + 1) / 2 : 1, NULL);
+		return strip_set(lanes, e, &e->strip[0], 0, focus, focus / 2, NULL) || strip_set(lanes, e, &e->strip[1], begin, top, 1, NULL);
 	}
-	if (failed)
-		edge_free(e);
-	return failed ? -1 : 0;
+	return strip_set(lanes, e, &e->strip[0], focus > 0 ? 0 : begin, top, creal(m) < 1 ? (begin + 1) / 2 : 1, NULL);
 }
 
 void edge_free(struct edge *e)
@@ -202,43 +178,6 @@ void edge_free(struct edge *e)
 		free(e->strip[k].sum);
 		spectrum_free(&e->strip[k].spectrum);
 	}
-	memset(e, 0, sizeof *e);
-}
-
-double edge_absorption(const struct edge *e)
-{
-	/* Gauss-Legendre on [-1, 1], Abramowitz and Stegun table 25.4 */
-	static const double node[4] = { 0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363 };
-	static const double weight[4] = { 0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763 };
-	double x = e->x, n = creal(e->m), s = cbrt(x / 2) / x, sy = cbrt(n * x / 2) / x, q = 0;
-	if (cimag(e->m) == 0)
-		return 0;
-	if (e->whole)
-		return fmax(e->lost / (x * x), 0);
-	/* panels in the angle of incidence, of the size of the edge near it and near the critical angle */
-	double at[40], turn = n < 1 ? n : 1;
-	int panels = 0;
-	for (int k = 0; k < 8; k++)
-		at[panels++] = sin(asin(turn - 8 * sy) * k / 8);
-	for (int k = -4; k <= 4; k++)
-		at[panels++] = turn + 2 * k * (n < 1 ? sy : s);
-	for (int k = 1; k <= 8 && n < 1; k++)
-		at[panels++] = turn + 8 * sy + (1 - 8 * s - turn - 8 * sy) * k / 8;
-	for (int k = -3; k <= 4 && n < 1; k++)
-		at[panels++] = 1 + 2 * k * s;
-	for (int k = 0; k + 1 < panels; k++)
-		for (int i = 0; i < 8; i++) {
-			double half = (at[k + 1] - at[k]) / 2, u = (at[k] + at[k + 1]) / 2 + half * (i < 4 ? -node[3 - i] : node[i - 4]);
-			struct debye d;
-			if (half <= 0)
-				continue;
-			debye_term(x, e->m, x * u, &d);
-			for (int j = 0; j < 2; j++) {
-				double r = creal(d.r[j] * conj(d.r[j])), t = creal(d.t[j] * conj(d.t[j])), in = creal(d.i[j] * conj(d.i[j]));
-				q += half * (i < 4 ? weight[3 - i] : weight[i - 4]) * u * (1 - r - (t > 0 ? t / (1 - in) : 0));
-			}
-		}
-	return fmax(q, 0);
 }
 
 void edge_aim(int n, const double *theta, struct edge_packet *out)

@@ -9,6 +9,8 @@
 #include "optics/lane_math.h"
 #include "optics/spectrum.h"
 
+#include <stddef.h>
+
 #define EDGE_ORDERS 8      /* orders 0 .. 8 have windows of their own; those above are in no ray and share one */
 
 /* W rises or falls in each of its pieces, smoothly, and is 0 or 1 beyond: with t = (u - zero) over, clamped to [0, 1], it is a polynomial
@@ -20,10 +22,11 @@ struct window {
 };
 
 struct edge_strip {
+	size_t room;               /* waves that there is memory for */
 	int first, n;              /* waves l = first .. first + n - 1 */
 	double about;              /* l + 1/2 where most of the light is */
 	double *sum, *sum_behind, *difference;    /* coefficients of S1 + S2 (the disc's wave removed; not removed) and S1 - S2, re, im */
-	struct spectrum spectrum;  /* of the same over sqrt(l + 1/2); memory NULL: not worth its while */
+	struct spectrum spectrum;  /* of the same over sqrt(l + 1/2); size 0: no angle is far from both axes for such long waves */
 };
 
 struct edge {
@@ -33,6 +36,7 @@ struct edge {
 	double lost;               /* of all waves in the strips, sum (2l + 1)(1 - |S|^2)/2 */
 	int whole;                 /* W = 1 everywhere: there is nothing for rays to do */
 	struct window window[EDGE_ORDERS + 2];
+	int same[EDGE_ORDERS + 2]; /* as that of the order before */
 	int n;
 	struct edge_strip strip[2];
 	struct window only[2];     /* the part of W_0 that each strip has, where there are two */
@@ -63,12 +67,19 @@ static inline double window_at(const struct window *w, double u)
 /* window_constant - W, if it is 0 throughout [least, most] or 1 throughout, else -1. */
 double window_constant(const struct window *w, double least, double most);
 
-/* edge_new - windows and waves for a size. Returns 0, or -1 when memory ran out (there is nothing to free then). */
-int edge_new(struct edge *e, double x, double complex m);
-void edge_free(struct edge *e);
+#define EDGE_TURN 5        /* widths (z/2)^(1/3) about a turning point z where Airy functions are needed */
+#define EDGE_FAR 16        /* (l + 1/2) sin theta from which on angular functions are cosines */
 
-/* edge_absorption - efficiency of absorption: u (1 - |S|^2) over all impact parameters, ripple averaged where S is not summed. */
-double edge_absorption(const struct edge *e);
+/* edge_separable - whether the orders p can be told apart at lambda: it lies inside the turning point |m| x of the wave within the
+ * sphere by more than the width of that point, or absorption keeps them apart. */
+int edge_separable(double x, double complex m, double lambda);
+
+struct goa_lanes;
+
+/* edge_set - windows and waves for a size. e is zero-initialised, or from a size before, whose memory is used again.
+ * Returns 0, or -1 when memory ran out. */
+int edge_set(const struct goa_lanes *lanes, struct edge *e, double x, double complex m);
+void edge_free(struct edge *e);
 
 #define EDGE_WIDTH 8
 

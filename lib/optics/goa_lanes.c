@@ -1,11 +1,10 @@
 /* One build of the loops: compiled for each processor, GOA_LANES the name. */
 #include "optics/goa_lanes.h"
 
-#include "optics/lane_math.h"
+#include "optics/debye_lanes.h"
 
 #include <math.h>
 
-#define FAR 16     /* (l + 1/2) sin theta of every wave from which on angular functions are cosines */
 
 /* Without a window: none of these rays is summed as waves. */
 static void plus_free(const struct plus_packet *k, double x, double s[4][PLUS_WIDTH])
@@ -127,48 +126,49 @@ static void near_axis(const struct edge *e, const struct edge_packet *k, double 
 		}
 }
 
-/* The spectrum's sums number which and 2 at phi and -phi (in rows): re, im of each. */
-static void look_up(const struct spectrum *spectrum, double at, int which, double out[8])
+/* Half a row of a spectrum: real or imaginary parts. */
+typedef double row __attribute__((vector_size(32), aligned(8), may_alias));
+
+/* Where in a spectrum EDGE_WIDTH angles are: the row below, and the kernel's weights of the rows from 3 before it on. */
+static void locate(const struct spectrum *spectrum, const double phi[EDGE_WIDTH], int at[EDGE_WIDTH], double weight[SPECTRUM_TAPS][EDGE_WIDTH])
 {
-	double weight[SPECTRUM_TAPS], up[8] = { 0 }, down[8] = { 0 };
-	double floor_at = (at - 0.5 + LANE_ROUND) - LANE_ROUND, part = at - floor_at;
-	int j = (int)floor_at;
-#pragma omp simd
-	for (int t = 0; t < SPECTRUM_TAPS; t++) {
-		double z = (t - 3 - part) * 0.25, inside = 1 - z * z;
-		inside = lane_select(0, inside, inside, 0);
-		weight[t] = lane_decay(SPECTRUM_SHAPE * (1 - sqrt(inside)));
+	double part[EDGE_WIDTH], size = spectrum->size;
+	for (int i = 0; i < EDGE_WIDTH; i++) {
+		double turns = phi[i] * (1 / (2 * M_PI)), row = (turns - floor(turns)) * size;
+		at[i] = (int)row;
+		part[i] = row - at[i];
 	}
-	int mirrored = (spectrum->size - j) % spectrum->size;
-	const double *above = spectrum->row + 8 * (j - 3), *below = spectrum->row + 8 * (mirrored + 3);
-	for (int t = 0; t < SPECTRUM_TAPS; t++, above += 8, below -= 8)
+	for (int t = 0; t < SPECTRUM_TAPS; t++)
 #pragma omp simd
-		for (int i = 0; i < 8; i++) {
-			up[i] += weight[t] * above[i];
-			down[i] += weight[t] * below[i];
+		for (int i = 0; i < EDGE_WIDTH; i++) {
+			double z = (t - 3 - part[i]) * 0.25, inside = 1 - z * z;
+			weight[t][i] = lane_decay(SPECTRUM_SHAPE * (1 - sqrt(lane_select(0, inside, inside, 0))));
 		}
-	out[0] = up[which];
-	out[1] = up[which + 4];
-	out[2] = down[which];
-	out[3] = down[which + 4];
-	out[4] = up[2];
-	out[5] = up[6];
-	out[6] = down[2];
-	out[7] = down[6];
 }
 
 /* Away from the axes, where d^l_1,+-1 = sqrt(2/(pi nu sin theta)) cos(nu theta - pi/4 - c/nu), nu = l + 1/2; c/nu linear in nu. */
 static void far_strip(const struct edge_strip *strip, const struct edge_packet *k, double s[4][EDGE_WIDTH])
 {
 	const struct spectrum *spectrum = &strip->spectrum;
-	double nu = strip->about, centre = strip->first + strip->n / 2 + 0.5, value[8][EDGE_WIDTH];
+	double nu = strip->about, centre = strip->first + strip->n / 2 + 0.5, phi[EDGE_WIDTH], weight[SPECTRUM_TAPS][EDGE_WIDTH], value[8][EDGE_WIDTH];
+	int at[EDGE_WIDTH];
+	for (int i = 0; i < EDGE_WIDTH; i++)
+		phi[i] = k->theta[i] + (k->plus[i] + k->minus[i]) / (2 * nu * nu);
+	locate(spectrum, phi, at, weight);
 	for (int i = 0; i < EDGE_WIDTH; i++) {
-		double shifted = k->theta[i] + (k->plus[i] + k->minus[i]) / (2 * nu * nu), out[8];
-		double turns = shifted * (1 / (2 * M_PI));
-		turns -= floor(turns);
-		look_up(spectrum, turns * spectrum->size, k->behind[i] != 0, out);
+		/* the sums at phi and -phi */
+		const double *above = spectrum->row + 8 * (at[i] - 3), *below = spectrum->row + 8 * (((spectrum->size - at[i]) & (spectrum->size - 1)) + 3);
+		row up_re = { 0 }, up_im = { 0 }, down_re = { 0 }, down_im = { 0 };
+		for (int t = 0; t < SPECTRUM_TAPS; t++) {
+			up_re += weight[t][i] * *(const row *)(above + 8 * t);
+			up_im += weight[t][i] * *(const row *)(above + 8 * t + 4);
+			down_re += weight[t][i] * *(const row *)(below - 8 * t);
+			down_im += weight[t][i] * *(const row *)(below - 8 * t + 4);
+		}
+		int sum = k->behind[i] != 0;
+		const double found[8] = { up_re[sum], up_im[sum], down_re[sum], down_im[sum], up_re[2], up_im[2], down_re[2], down_im[2] };
 		for (int j = 0; j < 8; j++)
-			value[j][i] = out[j];
+			value[j][i] = found[j];
 	}
 #pragma omp simd
 	for (int i = 0; i < EDGE_WIDTH; i++) {
@@ -213,7 +213,7 @@ static void waves(const struct edge *e, const struct edge_packet *k, double s[4]
 {
 	int far = 1, front = 0;
 	for (int strip = 0; strip < e->n; strip++)
-		far &= e->strip[strip].spectrum.memory && e->strip[strip].first * k->sine > FAR;
+		far &= e->strip[strip].spectrum.size && e->strip[strip].first * k->sine > EDGE_FAR;
 	if (!far) {
 		near_axis(e, k, s);
 		return;
@@ -226,4 +226,85 @@ static void waves(const struct edge *e, const struct edge_packet *k, double s[4]
 		far_disc(e->disc, k, s);
 }
 
-const struct goa_lanes GOA_LANES = { plus, waves };
+static double coefficients(const struct edge *e, const struct window *only, struct edge_strip *strip)
+{
+	double x = e->x, lost = 0;
+	const struct debye_bounds bounds = debye_bounds(x, e->m);
+	for (int k0 = 0; k0 < strip->n; k0 += DEBYE_WIDTH) {
+		double lambda0 = strip->first + k0 + 0.5;
+		struct debye_phase outside, inside;
+		debye_phases(lambda0, x, &outside);
+		debye_phases(lambda0, x * creal(e->m), &inside);
+		for (int i = 0, k = k0; i < DEBYE_WIDTH && k < strip->n; i++, k++) {
+			double lambda = lambda0 + i, u = lambda / x, w[EDGE_ORDERS + 2], rest;
+			struct debye d;
+			double complex s[2];
+			int beyond = strip->first + k > e->disc;
+			debye_term(x, e->m, &bounds, lambda, i, &outside, &inside, &d);
+			for (int p = 0; p <= EDGE_ORDERS + 1; p++)
+				w[p] = p && (only || e->same[p]) ? w[p - 1] : window_at(only ? only : &e->window[p], u);
+			rest = w[EDGE_ORDERS + 1];
+			for (int j = 0; j < 2; j++) {
+				/* all p >= 1 in closed form with the last one's share, and what the others have more */
+				double complex part = d.t[j], rays = rest * part / (1 - d.i[j]);
+				for (int p = 1; p <= EDGE_ORDERS && fabs(creal(part)) + fabs(cimag(part)) > 1e-8; p++, part *= d.i[j])
+					rays += (w[p] - rest) * part;
+				s[j] = -(w[0] * (d.r[j] - beyond) + rays) / 2;
+				if (e->whole) {
+					double complex all = d.r[j] + d.t[j] / (1 - d.i[j]);
+					lost += lambda * (1 - creal(all * conj(all)));
+				}
+			}
+			double complex sum = (s[0] + s[1]) * (2 * lambda), difference = (s[1] - s[0]) * (2 * lambda);
+			strip->sum[2 * k] = creal(sum);
+			strip->sum[2 * k + 1] = cimag(sum);
+			strip->sum_behind[2 * k] = creal(sum) + (beyond ? 0 : w[0] * 2 * lambda);
+			strip->sum_behind[2 * k + 1] = cimag(sum);
+			strip->difference[2 * k] = creal(difference);
+			strip->difference[2 * k + 1] = cimag(difference);
+		}
+	}
+	return lost;
+}
+
+static double absorption(const struct edge *e)
+{
+	/* Gauss-Legendre on [-1, 1], Abramowitz and Stegun table 25.4 */
+	static const double node[4] = { 0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363 };
+	static const double weight[4] = { 0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763 };
+	double x = e->x, n = creal(e->m), s = cbrt(x / 2) / x, sy = cbrt(n * x / 2) / x, q = 0;
+	if (cimag(e->m) == 0)
+		return 0;
+	if (e->whole)
+		return fmax(e->lost / (x * x), 0);
+	/* panels in the angle of incidence, of the size of the edge near it and near the critical angle */
+	double at[40], turn = n < 1 ? n : 1;
+	const struct debye_bounds bounds = debye_bounds(x, e->m);
+	int panels = 0;
+	for (int k = 0; k < 8; k++)
+		at[panels++] = sin(asin(turn - 8 * sy) * k / 8);
+	for (int k = -4; k <= 4; k++)
+		at[panels++] = turn + 2 * k * (n < 1 ? sy : s);
+	for (int k = 1; k <= 8 && n < 1; k++)
+		at[panels++] = turn + 8 * sy + (1 - 8 * s - turn - 8 * sy) * k / 8;
+	for (int k = -3; k <= 4 && n < 1; k++)
+		at[panels++] = 1 + 2 * k * s;
+	for (int k = 0; k + 1 < panels; k++)
+		for (int i = 0; i < 8; i++) {
+			double half = (at[k + 1] - at[k]) / 2, u = (at[k] + at[k + 1]) / 2 + half * (i < 4 ? -node[3 - i] : node[i - 4]);
+			struct debye d;
+			struct debye_phase outside, inside;
+			if (half <= 0)
+				continue;
+			debye_phases(x * u, x, &outside);
+			debye_phases(x * u, x * n, &inside);
+			debye_term(x, e->m, &bounds, x * u, 0, &outside, &inside, &d);
+			for (int j = 0; j < 2; j++) {
+				double r = creal(d.r[j] * conj(d.r[j])), t = creal(d.t[j] * conj(d.t[j])), in = creal(d.i[j] * conj(d.i[j]));
+				q += half * (i < 4 ? weight[3 - i] : weight[i - 4]) * u * (1 - r - (t > 0 ? t / (1 - in) : 0));
+			}
+		}
+	return fmax(q, 0);
+}
+
+const struct goa_lanes GOA_LANES = { plus, waves, coefficients, absorption };

@@ -10,6 +10,11 @@ struct goa_lanes {
 	void (*plus)(const struct plus_packet *k, size_t n, const struct edge *e, double s[4][PLUS_WIDTH]);
 	/* waves of GOA+ and the disc they leave: s += the same at the angles of a packet */
 	void (*waves)(const struct edge *e, const struct edge_packet *k, double s[4][EDGE_WIDTH]);
+	/* coefficients of the waves of a strip, whose number and room are set; W_p is only, or without that, the edge's. Returns what these
+	 * waves lose by absorption, sum (2l + 1) (1 - |S|^2)/2, where all of each is in the strip. */
+	double (*coefficients)(const struct edge *e, const struct window *only, struct edge_strip *strip);
+	/* efficiency of absorption: u (1 - |S|^2) over all impact parameters, ripple averaged where S is not summed */
+	double (*absorption)(const struct edge *e);
 };
 
 extern const struct goa_lanes goa_lanes_scalar;

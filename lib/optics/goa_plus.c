@@ -10,6 +10,7 @@ struct goa_plus {
 	double complex m;
 	const struct goa_lanes *lanes;
 	struct plus_rays axes, asked;
+	struct edge edge;          /* of the last size; its memory serves the next one */
 };
 
 struct goa_plus *goa_plus_new(double complex m)
@@ -32,6 +33,7 @@ void goa_plus_free(struct goa_plus *g)
 		return;
 	plus_rays_free(&g->axes);
 	plus_rays_free(&g->asked);
+	edge_free(&g->edge);
 	free(g);
 }
 
@@ -62,18 +64,17 @@ static void amplitudes(const struct goa_lanes *lanes, const struct plus_rays *r,
 int goa_plus_at(struct goa_plus *g, double x, double complex *s1, double complex *s2, struct efficiencies *q)
 {
 	double complex axis1[2], axis2[2];
-	struct edge e;
+	struct edge *e = &g->edge;
 	*q = (struct efficiencies){ 0 };
-	if (edge_new(&e, x, g->m))
+	if (edge_set(g->lanes, e, x, g->m))
 		return -1;
-	amplitudes(g->lanes, &g->asked, &e, s1, s2);
-	amplitudes(g->lanes, &g->axes, &e, axis1, axis2);
+	amplitudes(g->lanes, &g->asked, e, s1, s2);
+	amplitudes(g->lanes, &g->axes, e, axis1, axis2);
 	q->ext = 4 * creal(axis1[0]) / (x * x);
-	q->abs = edge_absorption(&e);
+	q->abs = g->lanes->absorption(e);
 	q->sca = q->ext - q->abs;
 	q->back = 4 * creal(axis1[1] * conj(axis1[1])) / (x * x);
 	if (!(q->sca > 0))      /* far from where this holds */
 		q->sca = 1;
-	edge_free(&e);
 	return 0;
 }

@@ -44,6 +44,19 @@ static inline void lane_sincos(double t, double *s, double *c)
 	*c = lane_double(((odd & si) | (~odd & ci)) ^ (((q + 1) & 2) << 62));
 }
 
+/* atan(y/x) for y >= 0, x > 0. Error 1e-12. */
+static inline double lane_atan2(double y, double x)
+{
+	double low = lane_select(y, x, y, x), high = lane_select(y, x, x, y), t = low / high;
+	double far = lane_select(0.41421356237309503, t, 1, 0);      /* beyond tan(pi/8), from pi/4 */
+	t = lane_select(0.41421356237309503, t, (low - high) / (low + high), t);
+	double w = t * t;
+	double a = t * (1 - w * (1.0 / 3 - w * (1.0 / 5 - w * (1.0 / 7 - w * (1.0 / 9 - w * (1.0 / 11 - w * (1.0 / 13 - w * (1.0 / 15 -
+		w * (1.0 / 17 - w * (1.0 / 19 - w * (1.0 / 21 - w * (1.0 / 23 - w * (1.0 / 25 - w / 27)))))))))))));
+	a += far * 0.7853981633974483;
+	return lane_select(y, x, a, 1.5707963267948966 - a);
+}
+
 /* e^-a, a >= 0; 0 is as small as 1e-300. Relative error 1e-13. */
 static inline double lane_decay(double a)
 {

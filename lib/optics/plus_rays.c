@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NOTHING 1e-6       /* rays fainter than this part of x are left out */
+#define NOTHING 1e-5       /* rays fainter than this part of x are left out */
 #define ZETA_BRIGHT 5      /* Airy pairs as long as zeta is below; the rays' second order is then good to 1e-3 */
 #define ZETA_DARK 6        /* on the dark side nothing is left beyond */
 #define Z_GLORY 20         /* Bessel pairs below */

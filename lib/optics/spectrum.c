@@ -60,20 +60,24 @@ static double *fourier(int size, double *a, double *b, const double *turn)
 	return a;
 }
 
-int spectrum_new(struct spectrum *s, int n, const double *const coefficient[SPECTRUM_SUMS])
+int spectrum_set(struct spectrum *s, int n, const double *const coefficient[SPECTRUM_SUMS])
 {
 	int size = 16, edge = SPECTRUM_TAPS - 1;
 	while (size < 2 * n)
 		size *= 2;
 	size_t rows = (size_t)size + 2 * (size_t)edge;
-	s->size = size;
-	double *room = malloc((rows * ROW + 2 * (size_t)size + (size_t)n + 1) * sizeof *room);
-	s->memory = malloc(rows * ROW * sizeof *s->memory);
-	if (!room || !s->memory) {
-		free(room);
-		free(s->memory);
-		return -1;
+	if (size > s->most) {
+		spectrum_free(s);
+		s->room = malloc((rows * ROW + 2 * (size_t)size) * sizeof *s->room);
+		s->memory = malloc(rows * ROW * sizeof *s->memory);
+		if (!s->room || !s->memory) {
+			spectrum_free(s);
+			return -1;
+		}
+		s->most = size;
 	}
+	s->size = size;
+	double *room = s->room;
 	double *turn = room + rows * ROW, *kernel = turn + size, *a = s->memory + (size_t)edge * ROW, *b = room + (size_t)edge * ROW;
 	transform_of_kernel(size, n / 2 + 1, kernel);
 	/* e^(2 pi i p/size) by quarters of the circle */
@@ -106,12 +110,12 @@ int spectrum_new(struct spectrum *s, int n, const double *const coefficient[SPEC
 		memcpy(s->row, result, (size_t)size * ROW * sizeof *s->row);
 	memcpy(s->memory, s->row + (size_t)(size - edge) * ROW, (size_t)edge * ROW * sizeof *s->row);
 	memcpy(s->row + (size_t)size * ROW, s->row, (size_t)edge * ROW * sizeof *s->row);
-	free(room);
 	return 0;
 }
 
 void spectrum_free(struct spectrum *s)
 {
 	free(s->memory);
-	s->memory = s->row = NULL;
+	free(s->room);
+	*s = (struct spectrum){ 0 };
 }

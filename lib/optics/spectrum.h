@@ -15,12 +15,13 @@
 struct spectrum {
 	int size;
 	double *row;                   /* row[8 j + ..] belongs to 2 pi j/size; j may be -7 .. size + 6 */
-	double *memory;
+	double *memory, *room;         /* kept from one transform to the next */
+	int most;
 };
 
-/* spectrum_new - from c[n] of each sum: coefficient[sum][2 k], [2 k + 1], where k stands for the frequency k - n/2. NULL sums are 0.
- * Returns 0, or -1 when memory ran out (there is nothing to free then). */
-int spectrum_new(struct spectrum *s, int n, const double *const coefficient[SPECTRUM_SUMS]);
+/* spectrum_set - from c[n] of each sum: coefficient[sum][2 k], [2 k + 1], where k stands for the frequency k - n/2. NULL sums are 0.
+ * s is zero-initialised, or from a transform before. Returns 0, or -1 when memory ran out. */
+int spectrum_set(struct spectrum *s, int n, const double *const coefficient[SPECTRUM_SUMS]);
 void spectrum_free(struct spectrum *s);
 
 #endif
