@@ -6,17 +6,102 @@
 #include <math.h>
 
 
-/* Without a window: none of these rays is summed as waves. */
-static void plus_free(const struct plus_packet *k, double x, double s[4][PLUS_WIDTH])
+/* x sqrt(D) of a packet's rays, with what absorption leaves. */
+static void spreads(const struct goa_packet *k, double x, const struct goa_cap *cap, double size[GOA_WIDTH])
+{
+	int64_t capped = 0;
+#pragma omp simd reduction(| : capped)
+	for (int i = 0; i < GOA_WIDTH; i++) {
+		capped |= x < k->until[i];
+		size[i] = x * k->spread[i];
+	}
+	for (int i = 0; capped && i < GOA_WIDTH; i++)
+		if (x < k->until[i])
+			size[i] = x * goa_spread(x, &k->ray[i], &cap[k->ray[i].p]);
+	if (k->fades)
+#pragma omp simd
+		for (int i = 0; i < GOA_WIDTH; i++)
+			size[i] *= lane_decay(x * k->fade[i]);
+}
+
+static void coherent(const struct goa_packet *k, size_t n, double x, const struct goa_cap *cap, double s[4][GOA_WIDTH])
+{
+	for (const struct goa_packet *end = k + n; k < end; k++) {
+		double size[GOA_WIDTH];
+		spreads(k, x, cap, size);
+#pragma omp simd
+		for (int i = 0; i < GOA_WIDTH; i++) {
+			double sine, cosine;
+			lane_sincos(x * k->path[i] + k->quarters[i], &sine, &cosine);
+			double c = size[i] * cosine, d = size[i] * sine;
+			s[0][i] += k->f[0][i] * c - k->f[1][i] * d;
+			s[1][i] += k->f[0][i] * d + k->f[1][i] * c;
+			s[2][i] += k->f[2][i] * c - k->f[3][i] * d;
+			s[3][i] += k->f[2][i] * d + k->f[3][i] * c;
+		}
+	}
+}
+
+static void incoherent(const struct goa_packet *k, size_t n, double x, const struct goa_cap *cap, double s[2][GOA_WIDTH])
+{
+	for (const struct goa_packet *end = k + n; k < end; k++) {
+		double size[GOA_WIDTH];
+		spreads(k, x, cap, size);
+#pragma omp simd
+		for (int i = 0; i < GOA_WIDTH; i++) {
+			double power = size[i] * size[i];
+			s[0][i] += power * (k->f[0][i] * k->f[0][i] + k->f[1][i] * k->f[1][i]);
+			s[1][i] += power * (k->f[2][i] * k->f[2][i] + k->f[3][i] * k->f[3][i]);
+		}
+	}
+}
+
+#define HANKEL 25    /* argument from which on Bessel functions are taken from Hankel's asymptotics (Abramowitz and Stegun 9.2.5 to 9.2.10) */
+
+static void diffraction(const struct goa_angles *k, double x, double d[GOA_WIDTH])
+{
+	int64_t small = 0;
+#pragma omp simd reduction(| : small)
+	for (int i = 0; i < GOA_WIDTH; i++) {
+		double z = x * k->sine[i], w = 1 / lane_select(z, HANKEL, HANKEL, z), w2 = w * w, sine, cosine;
+		lane_sincos(z * M_2_PI - 0.5, &sine, &cosine);
+		double p = 1 + w2 * (0.1171875 + w2 * (-0.144195556640625 + 0.6765925884246826 * w2));
+		double q = w * (0.375 + w2 * (-0.1025390625 + w2 * (0.277576446533203125 - 1.993531733751297 * w2)));
+		d[i] = sqrt(x) * k->root[i] * (p * sine + q * cosine);
+		small |= z < HANKEL;
+	}
+	for (int i = 0; small && i < GOA_WIDTH; i++) {
+		double z = x * k->sine[i];
+		if (k->root[i] != 0 && z < HANKEL)
+			d[i] = z < 1e-4 ? x * x * (0.5 - z * z / 16) : x * x * j1(z) / z;
+	}
+}
+
+/* Amplitudes of a packet's rays without F. */
+static void plus_sizes(const struct plus_packet *k, double x, double size[PLUS_WIDTH])
 {
 	double half = x * x / 2;
 #pragma omp simd
 	for (int i = 0; i < PLUS_WIDTH; i++) {
-		double sine, cosine, over = x / (x * x + k->hold[i]), size = x * k->spread[i];
+		double most = x * k->spread[i];
+		size[i] = lane_select(x, k->from[i], 0, lane_select(most, half, most, half));
+	}
+	if (k->fades)
+#pragma omp simd
+		for (int i = 0; i < PLUS_WIDTH; i++)
+			size[i] *= lane_decay(x * k->fade[i]);
+}
+
+/* Without a window: none of these rays is summed as waves. */
+static void plus_free(const struct plus_packet *k, double x, double s[4][PLUS_WIDTH])
+{
+	double size[PLUS_WIDTH];
+	plus_sizes(k, x, size);
+#pragma omp simd
+	for (int i = 0; i < PLUS_WIDTH; i++) {
+		double sine, cosine, over = x / (x * x + k->hold[i]);
 		lane_sincos(x * k->path[i] + k->quarters[i], &sine, &cosine);
-		size = lane_select(size, half, size, half);
-		size = lane_select(x, k->from[i], 0, size * lane_decay(x * k->fade[i]));
-		double c = size * cosine, d = size * sine;
+		double c = size[i] * cosine, d = size[i] * sine;
 		double re1 = k->f[0][i] - k->g[1][i] * over, im1 = k->f[1][i] + k->g[0][i] * over;
 		double re2 = k->f[2][i] - k->g[3][i] * over, im2 = k->f[3][i] + k->g[2][i] * over;
 		s[0][i] += re1 * c - im1 * d;
@@ -28,20 +113,19 @@ static void plus_free(const struct plus_packet *k, double x, double s[4][PLUS_WI
 
 static void plus_windowed(const struct plus_packet *k, const struct window *w, double x, double s[4][PLUS_WIDTH])
 {
-	double half = x * x / 2;
+	double size[PLUS_WIDTH];
+	plus_sizes(k, x, size);
 	/* pieces that are not there begin beyond every u */
 	const double from1 = w->n > 1 ? w->from[1] : 2, from2 = w->n > 2 ? w->from[2] : 2;
 	const double zero0 = w->zero[0], zero1 = w->zero[1], zero2 = w->zero[2], over0 = w->over[0], over1 = w->over[1], over2 = w->over[2];
 #pragma omp simd
 	for (int i = 0; i < PLUS_WIDTH; i++) {
-		double sine, cosine, over = x / (x * x + k->hold[i]), size = x * k->spread[i], u = k->u[i], w1, w2;
+		double sine, cosine, over = x / (x * x + k->hold[i]), u = k->u[i], w1, w2;
 		double zero = lane_select(u, from1, zero0, lane_select(u, from2, zero1, zero2));
 		double slope = lane_select(u, from1, over0, lane_select(u, from2, over1, over2));
 		double rest = 1 - window_piece(zero, slope, u, &w1, &w2);
 		lane_sincos(x * k->path[i] + k->quarters[i], &sine, &cosine);
-		size = lane_select(size, half, size, half);
-		size = lane_select(x, k->from[i], 0, size * lane_decay(x * k->fade[i]));
-		double c = size * cosine, d = size * sine, g = over * rest, h = over * w1, f = -over * k->e[i] * w2;
+		double c = size[i] * cosine, d = size[i] * sine, g = over * rest, h = over * w1, f = -over * k->e[i] * w2;
 		double re1 = k->f[0][i] * rest - (k->g[1][i] * g + k->h[1][i] * h + k->f[1][i] * f);
 		double im1 = k->f[1][i] * rest + (k->g[0][i] * g + k->h[0][i] * h + k->f[0][i] * f);
 		double re2 = k->f[2][i] * rest - (k->g[3][i] * g + k->h[3][i] * h + k->f[3][i] * f);
@@ -134,9 +218,9 @@ static void locate(const struct spectrum *spectrum, const double phi[EDGE_WIDTH]
 {
 	double part[EDGE_WIDTH], size = spectrum->size;
 	for (int i = 0; i < EDGE_WIDTH; i++) {
-		double turns = phi[i] * (1 / (2 * M_PI)), row = (turns - floor(turns)) * size;
-		at[i] = (int)row;
-		part[i] = row - at[i];
+		double turns = phi[i] * (1 / (2 * M_PI)), place = (turns - floor(turns)) * size;
+		at[i] = (int)place;
+		part[i] = place - at[i];
 	}
 	for (int t = 0; t < SPECTRUM_TAPS; t++)
 #pragma omp simd
@@ -189,7 +273,7 @@ static void far_strip(const struct edge_strip *strip, const struct edge_packet *
 	}
 }
 
-/* The disc away from the axes: edge_disc with Hankel's asymptotics (Abramowitz and Stegun 9.2.5 to 9.2.10). */
+/* The disc away from the axes: edge_disc with Hankel's asymptotics. */
 static void far_disc(int n, const struct edge_packet *k, double s[4][EDGE_WIDTH])
 {
 #pragma omp simd
@@ -307,4 +391,4 @@ static double absorption(const struct edge *e)
 	return fmax(q, 0);
 }
 
-const struct goa_lanes GOA_LANES = { plus, waves, coefficients, absorption };
+const struct goa_lanes GOA_LANES = { coherent, incoherent, diffraction, plus, waves, coefficients, absorption };

@@ -3,9 +3,16 @@
 #ifndef OPTICS_GOA_LANES_H
 #define OPTICS_GOA_LANES_H
 
+#include "optics/goa_rays.h"
 #include "optics/plus_rays.h"
 
 struct goa_lanes {
+	/* rays of GOA: s += S1 re, im, S2 re, im of n packets at size x, cap[p] for each order */
+	void (*coherent)(const struct goa_packet *k, size_t n, double x, const struct goa_cap *cap, double s[4][GOA_WIDTH]);
+	/* the same without interference: s += |S1|^2, |S2|^2 */
+	void (*incoherent)(const struct goa_packet *k, size_t n, double x, const struct goa_cap *cap, double s[2][GOA_WIDTH]);
+	/* amplitude of diffraction, x^2 J1(x sin theta)/(x sin theta) */
+	void (*diffraction)(const struct goa_angles *k, double x, double d[GOA_WIDTH]);
 	/* rays of GOA+: s += S1 re, im, S2 re, im of n packets */
 	void (*plus)(const struct plus_packet *k, size_t n, const struct edge *e, double s[4][PLUS_WIDTH]);
 	/* waves of GOA+ and the disc they leave: s += the same at the angles of a packet */

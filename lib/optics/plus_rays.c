@@ -200,6 +200,7 @@ static void put(struct plus_packet *k, int lane, const struct direction *d, int 
 	k->u[lane] = r->sin_i;
 	k->path[lane] = creal(t->path) * M_2_PI;
 	k->fade[lane] = cimag(t->path);
+	k->fades |= k->fade[lane] != 0;
 	k->quarters[lane] = r->eighths / 2.0;
 	k->from[lane] = d->found[i].from;
 	k->spread[lane] = fmin(spread, 1e15);

@@ -19,7 +19,7 @@ struct plus_packet {
 	double u[PLUS_WIDTH], e[PLUS_WIDTH], spread[PLUS_WIDTH], hold[PLUS_WIDTH];
 	double f[4][PLUS_WIDTH], g[4][PLUS_WIDTH], h[4][PLUS_WIDTH];
 	double least, most;        /* u */
-	int p;
+	int p, fades;              /* fades: any of these is absorbed */
 };
 
 /* The uniform (Airy) form of a rainbow: A and B the rays inside and outside of the rainbow's, complex on its dark side. */
