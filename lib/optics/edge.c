@@ -14,8 +14,6 @@
 #define CLEAR 12       /* widths of W's rise that leave a rainbow outside */
 
 #define FOCUS 4        /* an index so near p, in units of 1/sqrt x, focuses the central rays of order p: they are waves too */
-#define SOFT 60        /* for x |n - 1| below this rays are not distinct from what passes by: all is waves, up to x = SOFT_MAX */
-#define SOFT_MAX 2e4
 
 int edge_separable(double x, double complex m, double lambda)
 {
@@ -103,7 +101,7 @@ static void set_windows(struct edge *e)
 			piece(&e->window[p], 0, begin, fmin(near, n - TURN * sy));
 		}
 	}
-	if (begin < 0.05 || (x * fabs(n - 1) < SOFT && x < SOFT_MAX)) {
+	if (begin < 0.05 || (x * fabs(n - 1) < EDGE_SOFT && x < EDGE_SOFT_MAX)) {
 		e->whole = 1;
 		e->n = 1;
 		e->disc = 0;           /* Hilb's forms are not for so few waves, and are not needed */

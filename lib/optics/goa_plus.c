@@ -78,3 +78,11 @@ int goa_plus_at(struct goa_plus *g, double x, double complex *s1, double complex
 		q->sca = 1;
 	return 0;
 }
+
+double goa_plus_error(double x, double complex m)
+{
+	double n = creal(m);
+	/* where an index near 1 leaves rays that are not distinct, beyond what is summed as waves (edge.c) */
+	double soft = x > EDGE_SOFT_MAX && x * fabs(n - 1) < EDGE_SOFT ? 1 : 0;
+	return fmin(1, soft + 0.1 / x + 0.004);
+}
