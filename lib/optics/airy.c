@@ -99,34 +99,34 @@ struct airy airy_real(double z)
 	return a;
 }
 
-/* e^(-xi) times the series that falls off where Re xi > 0. */
+/* Ai and Ai' less e^(-xi), where that alone is left. */
 static void falling(double complex z, double complex *ai, double complex *aip)
 {
-	double complex root = csqrt(z), xi = 2.0 / 3 * z * root, quarter = csqrt(root), w = -1 / xi, power = 1, su = 0, sv = 0;
+	double complex root = csqrt(z), w = -1.5 / (z * root), power = 1, su = 0, sv = 0;
 	for (int k = 0; k < TERMS; k++, power *= w) {
 		su += u[k] * power;
 		sv += v[k] * power;
 	}
-	double complex e = cexp(-xi) / (2 * sqrt(M_PI));
-	*ai = e / quarter * su;
-	*aip = -e * quarter * sv;
+	*ai = su / csqrt(root);
+	*aip = -sv * csqrt(root);
 }
 
-void airy_complex(double complex z, double complex *ai, double complex *aip)
+double complex airy_ratio(double complex z)
 {
+	double complex a, ap, b, bp;
 	if (cabs(z) <= INNER) {
 		double complex s[4];
 		series(z, s);
-		*ai = AI0 * s[0] - AIP0 * s[1];
-		*aip = AI0 * s[2] - AIP0 * s[3];
-	} else if (creal(z) >= 0) {
-		falling(z, ai, aip);
-	} else {
-		/* Ai(z) = -(w Ai(w z) + w* Ai(w* z)), w = e^(2 pi i/3): both arguments lie where the series holds. */
-		double complex w = CMPLX(-0.5, sqrt(0.75)), a, b, ap, bp;
-		falling(w * z, &a, &ap);
-		falling(conj(w) * z, &b, &bp);
-		*ai = -(w * a + conj(w) * b);
-		*aip = -(w * w * ap + conj(w * w) * bp);
+		return (AI0 * s[2] - AIP0 * s[3]) / (AI0 * s[0] - AIP0 * s[1]);
 	}
+	double complex xi = 2.0 / 3 * z * csqrt(z);
+	if (fabs(carg(z)) < 2 * M_PI / 3 || fabs(creal(xi)) > 8) {
+		falling(z, &a, &ap);
+		return ap / a;
+	}
+	/* Ai(z) = -(w Ai(w z) + w* Ai(w* z)), w = e^(2 pi i/3): both arguments lie where one exponential is left */
+	double complex w = CMPLX(-0.5, sqrt(0.75)), ea = cexp(-2.0 / 3 * w * z * csqrt(w * z)), eb = cexp(-2.0 / 3 * conj(w) * z * csqrt(conj(w) * z));
+	falling(w * z, &a, &ap);
+	falling(conj(w) * z, &b, &bp);
+	return (w * w * ap * ea + conj(w * w) * bp * eb) / (w * a * ea + conj(w) * b * eb);
 }

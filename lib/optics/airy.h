@@ -13,7 +13,7 @@ struct airy {
  * Source: Maclaurin series; Abramowitz and Stegun 10.4.59 - 10.4.67 for large |z|. */
 struct airy airy_real(double z);
 
-/* airy_complex - Ai, Ai' for complex z, |z| up to 60. Error as above. Source: the same. */
-void airy_complex(double complex z, double complex *ai, double complex *aip);
+/* airy_ratio - Ai'/Ai for complex z. Error as above. Source: the same. */
+double complex airy_ratio(double complex z);
 
 #endif

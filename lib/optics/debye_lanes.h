@@ -34,8 +34,8 @@ struct debye_bounds {
 
 static struct debye_bounds debye_bounds(double x, double complex m)
 {
-	double y = creal(m) * x, width = EDGE_TURN * cbrt(y / 2);
-	return (struct debye_bounds){ x - EDGE_TURN * cbrt(x / 2), cimag(m) * x > width ? INFINITY : y - width };
+	double y = creal(m) * x, top = x + EDGE_TOP * cbrt(x / 2);
+	return (struct debye_bounds){ x - EDGE_TURN * cbrt(x / 2), edge_separable(x, m, top) ? INFINITY : y - EDGE_TURN * cbrt(y / 2) };
 }
 
 /* Langer's variable of a cylinder function of order lambda at z lambda: zeta, and q = 4 zeta/(1 - z^2). */
@@ -119,18 +119,11 @@ static void debye_term(double x, double complex m, const struct debye_bounds *bo
 			psi = root / l * ai;
 			psip = psi / (2 * creal(y)) - (2 / z) / (root * l * l) * aip;
 		} else {
-			double complex z = y / lambda, zeta, q, ai, aip;
+			double complex z = y / lambda, zeta, q;
 			langer_complex(z, &zeta, &q);
-			double complex at = l * l * zeta;
-			if (creal(at) < 30) {
-				airy_complex(at, &ai, &aip);
-			} else {
-				ai = 1;
-				aip = -csqrt(at) - 0.25 / at;
-			}
 			double complex root = csqrt(csqrt(q));
-			psi = root / l * ai;
-			psip = psi / (2 * y) - (2 / z) / (root * l * l) * aip;
+			psi = root / l;      /* but for Ai */
+			psip = psi / (2 * y) - (2 / z) / (root * l * l) * airy_ratio(l * l * zeta);
 		}
 		for (int j = 0; j < 2; j++) {
 			out->r[j] = -rx * (a2 * psi - f[j] * psip) / (a1 * psi - f[j] * psip);

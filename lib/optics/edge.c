@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define OUT 6          /* the strip ends so many widths beyond the edge */
 #define WIDE 38        /* and begins so many inside it */
 #define NARROW 3       /* where W reaches 1 */
 #define TURN 6         /* the same at the turning point inside a bubble */
@@ -17,8 +16,13 @@
 
 int edge_separable(double x, double complex m, double lambda)
 {
-	double y = creal(m) * x, width = EDGE_TURN * cbrt(y / 2);
-	return lambda < y - width || cimag(m) * x > width;
+	double complex y = m * x;
+	if (lambda < creal(y) - EDGE_TURN * cbrt(creal(y) / 2))
+		return 1;
+	if (cimag(y) < EDGE_TURN * cbrt(creal(y) / 2))
+		return 0;
+	/* the phase of a Hankel function inside; it turns negative where waves are evanescent */
+	return cimag(csqrt((y - lambda) * (y + lambda)) - lambda * cacos(lambda / y)) > 3;
 }
 
 static struct window window_one(void)
@@ -79,7 +83,7 @@ static void set_windows(struct edge *e)
 	double x = e->x, n = creal(e->m), s = cbrt(x / 2) / x, sy = cbrt(n * x / 2) / x;
 	double wide = 1 - WIDE * s, near = 1 - NARROW * s, turn = n - WIDE * sy, begin = fmin(wide, turn);
 	e->n = 1;
-	if (edge_separable(x, e->m, x * (1 + OUT * s))) {
+	if (edge_separable(x, e->m, x * (1 + EDGE_TOP * s))) {
 		begin = wide;
 		for (int p = 0; p <= EDGE_ORDERS + 1; p++)
 			own_window(&e->window[p], x, n, p <= EDGE_ORDERS ? p : 0, wide, p <= EDGE_ORDERS ? near : 1 - (WIDE - 15) * s);
@@ -146,7 +150,7 @@ static int strip_set(const struct goa_lanes *lanes, struct edge *e, struct edge_
 
 int edge_set(const struct goa_lanes *lanes, struct edge *e, double x, double complex m)
 {
-	double top = 1 + OUT * cbrt(x / 2) / x, begin = 1, focus = 0;
+	double top = 1 + EDGE_TOP * cbrt(x / 2) / x, begin = 1, focus = 0;
 	e->x = x;
 	e->m = m;
 	e->disc = (int)x;

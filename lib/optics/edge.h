@@ -68,6 +68,7 @@ static inline double window_at(const struct window *w, double u)
 double window_constant(const struct window *w, double least, double most);
 
 #define EDGE_TURN 5        /* widths (z/2)^(1/3) about a turning point z where Airy functions are needed */
+#define EDGE_TOP 6         /* the same from the edge to where waves end */
 #define EDGE_FAR 16        /* (l + 1/2) sin theta from which on angular functions are cosines */
 
 /* For x |n - 1| below EDGE_SOFT rays are not distinct from what passes by: all is waves, up to x = EDGE_SOFT_MAX, where it would take
@@ -76,7 +77,7 @@ double window_constant(const struct window *w, double least, double most);
 #define EDGE_SOFT_MAX 2e4
 
 /* edge_separable - whether the orders p can be told apart at lambda: it lies inside the turning point |m| x of the wave within the
- * sphere by more than the width of that point, or absorption keeps them apart. */
+ * sphere by more than the width of that point, or absorption leaves nothing of those inside. */
 int edge_separable(double x, double complex m, double lambda);
 
 struct goa_lanes;

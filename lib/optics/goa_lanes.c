@@ -362,23 +362,28 @@ static double absorption(const struct edge *e)
 	if (e->whole)
 		return fmax(e->lost / (x * x), 0);
 	/* panels in the angle of incidence, of the size of the edge near it and near the critical angle */
-	double at[40], turn = n < 1 ? n : 1;
 	const struct debye_bounds bounds = debye_bounds(x, e->m);
+	double at[40], turn = fmin(n, 1);
 	int panels = 0;
-	for (int k = 0; k < 8; k++)
-		at[panels++] = sin(asin(turn - 8 * sy) * k / 8);
+	for (int k = 0; k <= 8; k++)
+		at[panels++] = sin(M_PI_2 * k / 8);
 	for (int k = -4; k <= 4; k++)
-		at[panels++] = turn + 2 * k * (n < 1 ? sy : s);
-	for (int k = 1; k <= 8 && n < 1; k++)
-		at[panels++] = turn + 8 * sy + (1 - 8 * s - turn - 8 * sy) * k / 8;
-	for (int k = -3; k <= 4 && n < 1; k++)
-		at[panels++] = 1 + 2 * k * s;
+		if (k)
+			at[panels++] = 1 + 2 * k * s;
+	for (int k = -4; k <= 4 && n < 1; k++)
+		at[panels++] = turn + 2 * k * sy;
+	for (int i = 1; i < panels; i++)
+		for (int j = i; j > 0 && at[j - 1] > at[j]; j--) {
+			double swap = at[j];
+			at[j] = at[j - 1];
+			at[j - 1] = swap;
+		}
 	for (int k = 0; k + 1 < panels; k++)
 		for (int i = 0; i < 8; i++) {
 			double half = (at[k + 1] - at[k]) / 2, u = (at[k] + at[k + 1]) / 2 + half * (i < 4 ? -node[3 - i] : node[i - 4]);
 			struct debye d;
 			struct debye_phase outside, inside;
-			if (half <= 0)
+			if (u <= 0 || u > 1 + 8 * s)
 				continue;
 			debye_phases(x * u, x, &outside);
 			debye_phases(x * u, x * n, &inside);

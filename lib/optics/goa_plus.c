@@ -82,7 +82,9 @@ int goa_plus_at(struct goa_plus *g, double x, double complex *s1, double complex
 double goa_plus_error(double x, double complex m)
 {
 	double n = creal(m);
-	/* where an index near 1 leaves rays that are not distinct, beyond what is summed as waves (edge.c) */
-	double soft = x > EDGE_SOFT_MAX && x * fabs(n - 1) < EDGE_SOFT ? 1 : 0;
-	return fmin(1, soft + 0.1 / x + 0.004);
+	/* where an index near 1 leaves rays that are not distinct, beyond what is summed as waves */
+	if (x > EDGE_SOFT_MAX && x * fabs(n - 1) < EDGE_SOFT)
+		return 1;
+	/* resonances of a small sphere of high index, a little beside their places */
+	return fmin(1, 0.004 + (0.1 + 0.6 * fmax(n - 1, 0)) / x);
 }

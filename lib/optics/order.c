@@ -2,6 +2,12 @@
 
 #include <math.h>
 
+static double complex inverse(double complex z)
+{
+	double r = 1 / (creal(z) * creal(z) + cimag(z) * cimag(z));
+	return CMPLX(creal(z) * r, -cimag(z) * r);
+}
+
 void order_amplitude(int p, double complex m, double complex u, double epsilon, double complex f[2])
 {
 	double complex u2 = u * u, ci = csqrt(1 - u2), q;
@@ -13,15 +19,15 @@ void order_amplitude(int p, double complex m, double complex u, double epsilon, 
 		if (cimag(u) == 0 && cimag(q) < 0)
 			q = -q;
 	}
-	double complex k = epsilon ? epsilon * u2 / (2 * ci * ci) : 0, ky = epsilon ? epsilon * u2 / (2 * m * q * q) : 0, c = q / m;
+	double complex k = epsilon ? epsilon * u2 / (2 * ci * ci) : 0, ky = epsilon ? epsilon * u2 / (2 * m * q * q) : 0, over = inverse(m), c = q * over;
 	double complex a1 = I * ci - k, a2 = -I * ci - k, l1 = I * c - ky, l2 = -I * c - ky;
 	for (int j = 0; j < 2; j++) {
-		double complex a = j ? 1 / m : m, b1 = a * l1, b2 = a * l2, d = 1 / (a1 - b2);
+		double complex a = j ? over : m, b1 = a * l1, b2 = a * l2, d = inverse(a1 - b2);
 		if (p == 0) {
 			f[j] = -(a2 - b2) * d;
 			continue;
 		}
-		double complex inside = -(b1 - a1) / (b2 - a1);
+		double complex inside = -(b1 - a1) * inverse(b2 - a1);
 		f[j] = -(a1 - a2) * (b2 - b1) * d * d;
 		for (int i = 1; i < p; i++)
 			f[j] *= inside;

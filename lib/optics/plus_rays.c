@@ -11,6 +11,7 @@
 #define ZETA_BRIGHT 5      /* Airy pairs as long as zeta is below; the rays' second order is then good to 1e-3 */
 #define ZETA_DARK 6        /* on the dark side nothing is left beyond */
 #define Z_GLORY 20         /* Bessel pairs below */
+#define LEAST_SIZE 100     /* below, all is waves (edge.c): pairs that serve no larger size are left out */
 #define NEAR 0.5           /* rad from an axis within which glories are looked for */
 #define RAYS 64            /* most rays of one order in one direction, with room */
 
@@ -122,8 +123,24 @@ static double glory(const struct direction *d, int back, const struct ray *plus,
 	return out->below = z > 0 ? Z_GLORY / z : INFINITY;
 }
 
+/* sqrt(D). */
+static double spread(const struct ray *r)
+{
+	return r->p ? sqrt(r->ratio * r->cos_i / r->slope) : 0.5;
+}
+
+/* Whether a ray is nothing, whatever the size. */
+static int faint(const struct direction *d, const struct ray *r)
+{
+	double complex f[2];
+	order_amplitude(d->p, d->m, r->sin_i, 0, f);
+	return (cabs(f[0]) + cabs(f[1])) * spread(r) < NOTHING;
+}
+
 static void keep(struct direction *d, const struct ray *r, double from)
 {
+	if (!(from < INFINITY))
+		return;
 	int k = d->n++;
 	d->found[k].ray = *r;
 	d->found[k].from = from;
@@ -143,6 +160,8 @@ static double find_glory(struct direction *d, const struct branch *b, int side, 
 	int plus = front ? r->sigma > 0 : r->sigma < 0;
 	struct plus_glory g;
 	double from = plus ? glory(d, !front, r, &other, &g) : glory(d, !front, &other, r, &g);
+	if (from < LEAST_SIZE)
+		return 0;
 	if (plus) {
 		if (grow(&out->glory, out->glories, sizeof *out->glory))
 			*failed = 1;
@@ -161,7 +180,7 @@ static int gather(struct direction *d, struct plus_rays *out)
 	d->n = 0;
 	d->caustic = rays_caustic(n, d->p);
 	if (d->p < 2) {
-		if (rays_find(n, d->p, &d->caustic, d->theta, &r))
+		if (rays_find(n, d->p, &d->caustic, d->theta, &r) && !faint(d, &r))
 			keep(d, &r, 0);
 		return 0;
 	}
@@ -169,7 +188,8 @@ static int gather(struct direction *d, struct plus_rays *out)
 	double axis = (d->p % 2 ? d->theta : 180 - d->theta) * (M_PI / 180), least = fmin(branch[0].from, branch[0].to);
 	double most = fmax(fmax(branch[0].from, branch[0].to), branches > 1 ? branch[1].to : branch[0].to);
 	double paired = branches > 1 ? fmin(branch[0].from, branch[1].to) : least;    /* two rays up to here */
-	double dark = branches > 1 ? 0.6 : 0;
+	double dark = branches > 1 ? 0.6 : 0, narrow = LEAST_SIZE * cos(d->caustic.incidence);
+	double wide = 2 * ZETA_DARK * cbrt(d->caustic.bend / (2 * narrow * narrow));
 	for (int side = -1; side <= 1; side += 2)
 		for (int turns = (int)ceil((least - dark - side * axis) / (2 * M_PI) - 1e-9);; turns++) {
 			double tau = side * axis + 2 * M_PI * turns, from = 0;
@@ -177,16 +197,21 @@ static int gather(struct direction *d, struct plus_rays *out)
 				break;
 			if (tau < least - dark)
 				continue;
-			if (branches > 1 && tau < paired) {
+			/* zeta x^(2/3) is about |tau - tau_R| over the width of the Airy function, which is off by 2 at most */
+			if (branches > 1 && tau < paired && fabs(tau - d->caustic.tau) < wide) {
 				/* the phase is that of the inner ray without its sgn term, here as on the bright side */
 				int sigma = d->p % 2 ? side : -side, whole = d->p % 2 ? turns + (d->p - 1) / 2 : turns - (sigma - d->p + 1) / 2;
 				if (grow(&out->rainbow, out->rainbows, sizeof *out->rainbow))
 					return -1;
 				struct plus_rainbow *pair = &out->rainbow[out->rainbows++];
 				from = rainbow(d, tau, 4 * whole - 2 * (d->p - 1) - sigma + 1, pair);
+				if (from < LEAST_SIZE) {
+					from = 0;
+					out->rainbows--;
+				}
 			}
 			for (int b = 0; b < branches; b++)
-				if (rays_at(n, d->p, &d->caustic, &branch[b], d->theta, side, turns, &r))
+				if (rays_at(n, d->p, &d->caustic, &branch[b], d->theta, side, turns, &r) && !faint(d, &r))
 					keep(d, &r, fmax(from, find_glory(d, &branch[b], side, turns, &r, out, &failed)));
 		}
 	return failed ? -1 : 0;
@@ -196,14 +221,13 @@ static void put(struct plus_packet *k, int lane, const struct direction *d, int 
 {
 	const struct ray *r = &d->found[i].ray;
 	const struct order_terms *t = &d->found[i].terms;
-	double spread = d->p ? sqrt(r->ratio * r->cos_i / r->slope) : 0.5;
 	k->u[lane] = r->sin_i;
 	k->path[lane] = creal(t->path) * M_2_PI;
 	k->fade[lane] = cimag(t->path);
 	k->fades |= k->fade[lane] != 0;
 	k->quarters[lane] = r->eighths / 2.0;
 	k->from[lane] = d->found[i].from;
-	k->spread[lane] = fmin(spread, 1e15);
+	k->spread[lane] = fmin(spread(r), 1e15);
 	k->e[lane] = fmax(fmin(t->e, 1e15), -1e15);
 	double f2 = 0, g2 = 0;
 	for (int j = 0; j < 2; j++) {
@@ -222,20 +246,6 @@ static void put(struct plus_packet *k, int lane, const struct direction *d, int 
 		k->h[2 * j][lane] = -creal(t->h[j]);
 		k->h[2 * j + 1][lane] = -cimag(t->h[j]);
 	}
-}
-
-/* Leave out what is nothing, whatever the size. */
-static void prune(struct direction *d)
-{
-	int kept = 0;
-	for (int i = 0; i < d->n; i++) {
-		const struct ray *r = &d->found[i].ray;
-		const double complex *f = d->found[i].terms.f;
-		double spread = d->p ? sqrt(r->ratio * r->cos_i / r->slope) : 0.5;
-		if ((cabs(f[0]) + cabs(f[1])) * spread > NOTHING && d->found[i].from < INFINITY)
-			d->found[kept++] = d->found[i];
-	}
-	d->n = kept;
 }
 
 int plus_rays_find(double complex m, int n, const double *theta, struct plus_rays *out)
@@ -266,7 +276,6 @@ int plus_rays_find(double complex m, int n, const double *theta, struct plus_ray
 				d[k].sine = sin(fmin(theta[angle], 180 - theta[angle]) * (M_PI / 180));
 				if (gather(&d[k], out))
 					goto no_memory;
-				prune(&d[k]);
 				most = d[k].n > most ? d[k].n : most;
 			}
 			if (used + (size_t)most > room) {
