@@ -86,5 +86,5 @@ double goa_plus_error(double x, double complex m)
 	if (x > EDGE_SOFT_MAX && x * fabs(n - 1) < EDGE_SOFT)
 		return 1;
 	/* resonances of a small sphere of high index, a little beside their places */
-	return fmin(1, 0.004 + (0.1 + 0.6 * fmax(n - 1, 0)) / x);
+	return fmin(1, 0.005 + (0.1 + 2 * fmax(n - 1, 0)) / x);
 }

@@ -89,6 +89,8 @@ void order_terms(int p, double complex m, double u, double theta, int sigma, int
 	order_amplitude(p, m, at, 1e-5, up);
 	order_amplitude(p, m, at, -1e-5, down);
 	phases(p, n, at, &p2, &p3, &p4);
+	if (!(fabs(p2) > 1e-8))    /* a focus: no form of rays holds */
+		return;
 	double c = sqrt((1 - at) * (1 + at)), debye = (3 / c + 5 * at * at / (c * c * c)) / 12;
 	if (!total && p) {
 		double q = sqrt((n - at) * (n + at));

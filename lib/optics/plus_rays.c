@@ -85,7 +85,7 @@ static double rainbow(const struct direction *d, double tau, int eighths, struct
 	double complex rho = slope[1] * cpow(0.75 * (path[1] - path[0]) / (slope[1] * slope[1] * slope[1]), 1.0 / 3);
 	double complex ha = csqrt(-rho / slope[0]), hb = csqrt(rho / slope[1]);
 	*out = (struct plus_rainbow){ .angle = d->angle, .p = d->p, .sine = d->sine, .u = sin(c), .path = creal(path[0] + path[1]) / 2,
-		.zeta = creal(rho * rho), .ua = creal(u[0]), .ub = creal(u[1]), .over_rho = I / rho };
+		.zeta = creal(rho * rho), .ua = beside > 0 ? creal(u[0]) : sin(c), .ub = beside > 0 ? creal(u[1]) : sin(c), .over_rho = I / rho };
 	for (int j = 0; j < 2; j++) {
 		out->a[j] = g[0][j] * ha;
 		out->b[j] = g[1][j] * hb;
@@ -129,12 +129,12 @@ static double spread(const struct ray *r)
 	return r->p ? sqrt(r->ratio * r->cos_i / r->slope) : 0.5;
 }
 
-/* Whether a ray is nothing, whatever the size. */
+/* Whether a ray is nothing, whatever the size; or at the end of a family where it has no amplitude. */
 static int faint(const struct direction *d, const struct ray *r)
 {
 	double complex f[2];
 	order_amplitude(d->p, d->m, r->sin_i, 0, f);
-	return (cabs(f[0]) + cabs(f[1])) * spread(r) < NOTHING;
+	return !((cabs(f[0]) + cabs(f[1])) * spread(r) >= NOTHING);
 }
 
 static void keep(struct direction *d, const struct ray *r, double from)

@@ -27,7 +27,7 @@ struct plus_rainbow {
 	int angle, p;
 	double below, sine, u;                 /* sine of the angle, u of the rainbow's ray */
 	double path, zeta;                     /* in x and x^(2/3) */
-	double ua, ub;
+	double ua, ub;                         /* of A and B; on the dark side, of the rainbow's ray */
 	double complex a[2], b[2], over_rho;   /* amplitudes without 1/sqrt(sine), in x^(7/6); i/rho in x^(-1/3) */
 	double complex fade_a, fade_b;         /* i times the path that absorption adds */
 };
