@@ -33,7 +33,7 @@ LANE_OBJECTS = $(foreach cpu,$(CPUS),$(foreach t,0 1 2 3,$(foreach w,0 1 3 1p 3p
 lane_flags = -g1 -Wno-unused-parameter $(LANES_$(word 1,$(1))) -DRENDER=render_$(subst $(space),_,$(1)) -DTRANSPORT=$(word 2,$(1)) \
 	$(if $(filter-out 0,$(word 3,$(1))),-DWAVES=$(subst p,,$(word 3,$(1))) -DPEAK=$(if $(findstring p,$(word 3,$(1))),1,0))
 space = $(subst ,, )
-# The loops of GOA, for each processor.
+# The loops of GOA, for each processor. Without -fno-tree-slp-vectorize gcc contracts complex products whatever -ffp-contract says.
 GOA_OBJECTS = $(CPUS:%=obj/optics/goa_lanes/%.o)
 MAN = $(wildcard man/*.[1-9])
 
@@ -51,7 +51,7 @@ $(addprefix $(1)/,$(LANE_OBJECTS)): $(1)/obj/render/lanes/%.o: lib/render/lanes.
 	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-O3) $$(call lane_flags,$$(subst _, ,$$*)) -MMD -MP -c -o $$@ $$<
 $(addprefix $(1)/,$(GOA_OBJECTS)): $(1)/obj/optics/goa_lanes/%.o: lib/optics/goa_lanes.c
 	@mkdir -p $$(@D)
-	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-O3) -fno-trapping-math -fcx-limited-range $$(LANES_$$*) -DGOA_LANES=goa_lanes_$$* -MMD -MP -c -o $$@ $$<
+	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-O3) -fno-trapping-math -fcx-limited-range -fno-tree-slp-vectorize $$(LANES_$$*) -DGOA_LANES=goa_lanes_$$* -MMD -MP -c -o $$@ $$<
 $(1)/obj/gen/%.o: $(B)/gen/%.c
 	@mkdir -p $$(@D)
 	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -c -o $$@ $$<

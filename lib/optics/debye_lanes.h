@@ -83,6 +83,17 @@ static void debye_phases(double lambda0, double z, struct debye_phase *out)
 	}
 }
 
+/* R, T, I of one polarisation from the logarithmic derivatives and phases of the waves outside and inside. Not a loop over both: gcc
+ * contracts the complex products of such a loop whatever -ffp-contract says, and builds would differ. */
+static void debye_surface(double complex f, double complex a1, double complex l1, double complex l2, double complex rx, double complex ry,
+                          double complex *r, double complex *t, double complex *i)
+{
+	double complex a2 = conj(a1), b1 = f * l1, b2 = f * l2, d = 1 / (a1 - b2);
+	*r = -rx * (a2 - b2) * d;
+	*t = -rx * ry * (a1 - a2) * (b2 - b1) * d * d;
+	*i = -ry * (b1 - a1) / (b2 - a1);
+}
+
 /* R, T, I of one wave, number i of those that the phases are of. Where the orders cannot be told apart (edge_separable), r is the
  * whole sum S and t, i are 0. lambda is at most x + 8 (x/2)^(1/3). */
 static void debye_term(double x, double complex m, const struct debye_bounds *bounds, double lambda, int i,
@@ -125,10 +136,9 @@ static void debye_term(double x, double complex m, const struct debye_bounds *bo
 			psi = root / l;      /* but for Ai */
 			psip = psi / (2 * y) - (2 / z) / (root * l * l) * airy_ratio(l * l * zeta);
 		}
-		for (int j = 0; j < 2; j++) {
-			out->r[j] = -rx * (a2 * psi - f[j] * psip) / (a1 * psi - f[j] * psip);
-			out->t[j] = out->i[j] = 0;
-		}
+		out->r[0] = -rx * (a2 * psi - f[0] * psip) / (a1 * psi - f[0] * psip);
+		out->r[1] = -rx * (a2 * psi - f[1] * psip) / (a1 * psi - f[1] * psip);
+		out->t[0] = out->t[1] = out->i[0] = out->i[1] = 0;
 		return;
 	}
 	double complex l1, l2, ry;
@@ -146,12 +156,8 @@ static void debye_term(double x, double complex m, const struct debye_bounds *bo
 		l2 = -I * c - k;
 		ry = cexp(2 * I * phase);
 	}
-	for (int j = 0; j < 2; j++) {
-		double complex b1 = f[j] * l1, b2 = f[j] * l2, d = 1 / (a1 - b2);
-		out->r[j] = -rx * (a2 - b2) * d;
-		out->t[j] = -rx * ry * (a1 - a2) * (b2 - b1) * d * d;
-		out->i[j] = -ry * (b1 - a1) / (b2 - a1);
-	}
+	debye_surface(f[0], a1, l1, l2, rx, ry, &out->r[0], &out->t[0], &out->i[0]);
+	debye_surface(f[1], a1, l1, l2, rx, ry, &out->r[1], &out->t[1], &out->i[1]);
 }
 
 #endif

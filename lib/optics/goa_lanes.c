@@ -56,7 +56,7 @@ static void incoherent(const struct goa_packet *k, size_t n, double x, const str
 	}
 }
 
-#define HANKEL 25    /* argument from which on Bessel functions are taken from Hankel's asymptotics (Abramowitz and Stegun 9.2.5 to 9.2.10) */
+#define HANKEL 14    /* argument from which on Bessel functions are taken from Hankel's asymptotics (Abramowitz and Stegun 9.2.5 to 9.2.10) */
 
 static void diffraction(const struct goa_angles *k, double x, double d[GOA_WIDTH])
 {
