@@ -12,6 +12,8 @@
 #define TURN 6         /* the same at the turning point inside a bubble */
 #define CLEAR 12       /* widths of W's rise that leave a rainbow outside */
 
+#define RISE 20        /* widths that W takes at least to rise between a rainbow and the edge */
+#define DEEP 28        /* and inside it */
 #define FOCUS 4        /* an index so near p, in units of 1/sqrt x, focuses the central rays of order p: they are waves too */
 
 int edge_separable(double x, double complex m, double lambda)
@@ -67,10 +69,14 @@ static void own_window(struct window *w, double x, double n, int p, double wide,
 		near = end < wide ? near : 1e30;
 	} else if (!isnan(c.tau)) {
 		double room = (1 - sin(c.incidence)) / s;
-		if (room > NARROW + 2 * CLEAR)
+		if (room > NARROW + RISE + CLEAR) {
 			wide = fmax(wide, 1 - (room - CLEAR) * s);
-		else
-			near = fmin(near, 1 - fmin(room + CLEAR, WIDE - 10) * s);
+		} else {
+			near = fmin(near, 1 - (room + CLEAR) * s);
+			wide = fmin(wide, 1 - (room + CLEAR + DEEP) * s);
+			if (wide < 0.05)
+				near = 1e30;
+		}
 	}
 	if (near < 1e30)
 		piece(w, from, wide, near);

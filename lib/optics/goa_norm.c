@@ -30,7 +30,7 @@ static int panels(double n, int order, const struct caustic *caustic, double mos
 		out[k++] = STEP * i / most;
 		out[k++] = M_PI - STEP * i / most;
 	}
-	for (double t = end; t < M_PI / 2; t *= 1.7) {
+	for (double t = end; t < M_PI / 2; t *= 1.5) {
 		out[k++] = t;
 		out[k++] = M_PI - t;
 	}

@@ -63,7 +63,7 @@ static double *fourier(int size, double *a, double *b, const double *turn)
 int spectrum_set(struct spectrum *s, int n, const double *const coefficient[SPECTRUM_SUMS])
 {
 	int size = 16, edge = SPECTRUM_TAPS - 1;
-	while (size < 2 * n)
+	while (size < n + n / 2)
 		size *= 2;
 	size_t rows = (size_t)size + 2 * (size_t)edge;
 	if (size > s->most) {
