@@ -40,8 +40,8 @@ static inline void lane_sincos(double t, double *s, double *c)
 	double cosine = 1 + w * (-1.2337005501361697 + w * (0.253669507901048 + w * (-0.020863480763352961 + w * (0.00091926027483942659 +
 		w * (-2.5202042373060605e-05 + w * (4.7108747788181716e-07 + w * -6.3866030837918522e-09))))));
 	int64_t si = lane_bits(sine), ci = lane_bits(cosine);
-	*s = lane_double(((odd & ci) | (~odd & si)) ^ ((q & 2) << 62));
-	*c = lane_double(((odd & si) | (~odd & ci)) ^ (((q + 1) & 2) << 62));
+	*s = lane_double(((odd & ci) | (~odd & si)) ^ (int64_t)((uint64_t)(q & 2) << 62));
+	*c = lane_double(((odd & si) | (~odd & ci)) ^ (int64_t)((uint64_t)((q + 1) & 2) << 62));
 }
 
 /* atan(y/x) for y >= 0, x > 0. Error 1e-12. */
