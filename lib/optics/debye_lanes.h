@@ -30,12 +30,16 @@ struct debye {
 /* How far away from the turning points outside and inside, as bounds on lambda. */
 struct debye_bounds {
 	double outside, separable;
+	int opaque;            /* nothing comes back from inside */
 };
 
 static struct debye_bounds debye_bounds(double x, double complex m)
 {
 	double y = creal(m) * x, top = x + EDGE_TOP * cbrt(x / 2);
-	return (struct debye_bounds){ x - EDGE_TURN * cbrt(x / 2), edge_separable(x, m, top) ? INFINITY : y - EDGE_TURN * cbrt(y / 2) };
+	double complex z = m * x;
+	int separable = edge_separable(x, m, top);
+	return (struct debye_bounds){ x - EDGE_TURN * cbrt(x / 2), separable ? INFINITY : y - EDGE_TURN * cbrt(y / 2),
+		cimag(m) > 0 && separable && cimag(csqrt((z - top) * (z + top)) - top * cacos(top / z)) > 20 };
 }
 
 /* Langer's variable of a cylinder function of order lambda at z lambda: zeta, and q = 4 zeta/(1 - z^2). */
@@ -151,10 +155,11 @@ static void debye_term(double x, double complex m, const struct debye_bounds *bo
 		if (cimag(s) < 0)
 			s = -s;
 		double complex c = s / y, k = lambda * lambda / (2 * y * s * s);
-		double complex phase = s - lambda * cacos(lambda / y) - M_PI / 4 - (3 + 5 * lambda * lambda / (s * s)) / (24 * s);
 		l1 = I * c - k;
 		l2 = -I * c - k;
-		ry = cexp(2 * I * phase);
+		ry = 0;
+		if (!bounds->opaque)
+			ry = cexp(2 * I * (s - lambda * cacos(lambda / y) - M_PI / 4 - (3 + 5 * lambda * lambda / (s * s)) / (24 * s)));
 	}
 	debye_surface(f[0], a1, l1, l2, rx, ry, &out->r[0], &out->t[0], &out->i[0]);
 	debye_surface(f[1], a1, l1, l2, rx, ry, &out->r[1], &out->t[1], &out->i[1]);

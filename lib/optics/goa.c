@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define NODES 8        /* nodes of a panel's quadrature */
+#define PANELS 24      /* of the quadrature of absorption, on either side of the critical angle */
 #define GLORY 4        /* highest order looked at for forward glories */
 #define GRIDS 26       /* sizes up to 2^0 .. 2^25 */
 #define CHUNK 4096     /* angles of goa_amplitudes whose rays are held at once */
@@ -16,6 +17,11 @@ static const double node[NODES] = { -0.9602898564975363, -0.7966664774136267, -0
 static const double weight[NODES] = { 0.1012285362903763, 0.2223810344533745, 0.3137066458778873, 0.3626837833783620,
 	0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763 };
 
+/* Where light may enter an absorbing sphere: a node of a quadrature over the impact parameter. */
+struct entry {
+	double weight, reflected[2], chord;      /* s ds; |R_j|^2; attenuation along a chord, infinite where none leads on */
+};
+
 struct goa {
 	double complex m;
 	int order;
@@ -24,6 +30,8 @@ struct goa {
 	struct goa_rays asked, back;
 	struct goa_beam *front;         /* forward up to GLORY, for the estimate of errors */
 	int fronts;
+	struct entry entry[2 * PANELS * NODES];
+	int entries;                    /* 0: does not absorb */
 	struct goa_grid grid[GRIDS];    /* for the norm, by size */
 };
 
@@ -65,6 +73,28 @@ static double integral(struct goa *g, int interfere, double x, double *along)
 	return goa_grid_sum(g->lanes, grid, interfere, x, cap, along);
 }
 
+/* The quadrature of absorption, in the angle of incidence. */
+static int enter(double complex m, struct entry *out)
+{
+	double n = creal(m), edge = n < 1 ? asin(n) : M_PI / 2;
+	int k = 0;
+	for (int panel = 0; panel < 2 * PANELS; panel++) {
+		int inside = panel < PANELS;
+		double width = (inside ? edge : M_PI / 2 - edge) / PANELS, lo = inside ? width * panel : edge + width * (panel - PANELS);
+		if (width == 0)
+			break;
+		for (int j = 0; j < NODES; j++) {
+			double i = lo + width * (1 + node[j]) / 2, s = sin(i), c = cos(i);
+			struct ray r = { .sin_i = s, .cos_i = c };
+			double complex r1, r2;
+			goa_fresnel(m, s, c, &r1, &r2);
+			out[k++] = (struct entry){ weight[j] * width / 2 * s * c, { creal(r1 * conj(r1)), creal(r2 * conj(r2)) },
+			                           inside ? cimag(goa_chord(m, &r)) : INFINITY };
+		}
+	}
+	return k;
+}
+
 struct goa *goa_new(double complex m, int order)
 {
 	struct goa *g = calloc(1, sizeof *g);
@@ -73,6 +103,7 @@ struct goa *goa_new(double complex m, int order)
 	g->m = m;
 	g->order = order;
 	g->lanes = goa_lanes();
+	g->entries = cimag(m) == 0 ? 0 : enter(m, g->entry);
 	int most = order > GLORY ? order : GLORY;
 	for (int p = 0; p <= most; p++)
 		g->caustic[p] = rays_caustic(creal(m), p);
@@ -190,30 +221,16 @@ static double extinction(const struct goa *g, double x, double *missing)
 
 /* Absorption: of the energy that enters at each impact parameter s = sin i the part lost along all chords,
  *     Q = int_0^1 2 s ds (1/2) sum_j (1 - |R_j|^2) (1 - e^-a) / (1 - |R_j|^2 e^-a),  a = 2 x Im(chord). */
-static double absorption(double complex m, double x)
+static double absorption(const struct goa *g, double x)
 {
-	enum { PANELS = 24 };
-	double n = creal(m), edge = n < 1 ? asin(n) : M_PI / 2, q = 0;
-	if (cimag(m) == 0)
-		return 0;
-	for (int k = 0; k < 2 * PANELS; k++) {
-		double lo = k < PANELS ? edge * k / PANELS : edge + (M_PI / 2 - edge) * (k - PANELS) / PANELS;
-		double width = k < PANELS ? edge / PANELS : (M_PI / 2 - edge) / PANELS;
-		if (width == 0)
-			break;
-		for (int j = 0; j < NODES; j++) {
-			double i = lo + width * (1 + node[j]) / 2, s = sin(i), c = cos(i);
-			struct ray r = { .sin_i = s, .cos_i = c };
-			double complex r1, r2;
-			goa_fresnel(m, s, c, &r1, &r2);
-			double kept = k < PANELS ? exp(-2 * x * cimag(goa_chord(m, &r))) : 0;
-			double lost = k < PANELS ? -expm1(-2 * x * cimag(goa_chord(m, &r))) : 1;
-			double sum = 0, reflected[2] = { creal(r1 * conj(r1)), creal(r2 * conj(r2)) };
-			for (int f = 0; f < 2; f++)
-				if (reflected[f] < 1)
-					sum += (1 - reflected[f]) * lost / (1 - reflected[f] * kept);
-			q += weight[j] * width / 2 * 2 * s * c * sum / 2;
-		}
+	double q = 0;
+	for (int k = 0; k < g->entries; k++) {
+		const struct entry *e = &g->entry[k];
+		double lost = -expm1(-2 * x * e->chord), sum = 0;
+		for (int j = 0; j < 2; j++)
+			if (e->reflected[j] < 1)
+				sum += (1 - e->reflected[j]) * lost / (1 - e->reflected[j] * (1 - lost));
+		q += e->weight * sum;
 	}
 	return q;
 }
@@ -231,7 +248,7 @@ int goa_measure(struct goa *g, double x, struct efficiencies *q, double *norm, d
 	}
 	amplitudes(g, &g->back, x, &s1, &s2);
 	q->ext = extinction(g, x, &missing);
-	q->abs = fmin(absorption(g->m, x), fmax(q->ext, 0));
+	q->abs = fmin(absorption(g, x), fmax(q->ext, 0));
 	q->sca = q->ext - q->abs;
 	q->g = *norm > 0 ? along / *norm : 0;
 	q->back = 4 * creal(s1 * conj(s1)) / (x * x);
