@@ -113,7 +113,7 @@ axes 0.75 3000.3 0,1e-6,0.01,179.98,179.99999,180
 ok $? 'and in those of a bubble'
 axes 2 1000.3 0,0.1,179.9,180
 ok $? 'an index that focuses on the back'
-goa-phase --model goa+ --particle 1.33 --size-parameter 0.01,0.1,1,1e7 --theta 0,90,137.9,180 | tabtxt >out
+goa-phase --model goa+ --particle 1.33 --size-parameter 0.01,0.1,1,1e7 --theta 0,90,137.9,180 2>err | tabtxt >out
 is "17 0" "$(wc -l <out) $(grep -cE 'nan|inf' out)" 'finite from end to end'
 
 # Without interference nothing but the lobe knows of the size.

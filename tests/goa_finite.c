@@ -63,8 +63,8 @@ static void phase_functions(int spheres)
 			theta[i] = angle(n);
 		struct goa_plus *plus = goa_plus_new(m);
 		struct goa *goa = goa_new(m, (int)(uniform() * 5));
-		int failed = !plus || !goa || goa_plus_aim(plus, EACH, theta) || goa_plus_at(plus, x, s1, s2, &q) || goa_aim(goa, EACH, theta) ||
-			goa_incoherent(goa, x, i1, i2, &norm);
+		int failed = !plus || !goa || goa_plus_aim(plus, EACH, theta) || goa_plus_at(plus, x, s1, s2, &q) ||
+			     goa_aim(goa, EACH, theta) || goa_incoherent(goa, x, i1, i2, &norm);
 		int wrong = failed || !(q.sca > 0) || !isfinite(q.sca) || !isfinite(q.back) || !(norm > 0) || !isfinite(norm);
 		for (int i = 0; !failed && i < EACH; i++) {
 			double p = (creal(s1[i] * conj(s1[i])) + creal(s2[i] * conj(s2[i]))) / (2 * M_PI * x * x * q.sca);
@@ -73,7 +73,8 @@ static void phase_functions(int spheres)
 			int beyond = cabs(s1[i]) > 10 * x * x + 10 * x || i1[i] > 100 * (x * x + x) * (x * x + x);
 			large += beyond;
 			if (beyond)
-				printf("# x = %a, m = %a%+ai, theta = %a: %g, %g\n", x, creal(m), cimag(m), theta[i], cabs(s1[i]), sqrt(i1[i]));
+				printf("# x = %a, m = %a%+ai, theta = %a: %g, %g\n", x, creal(m), cimag(m), theta[i], cabs(s1[i]),
+				       sqrt(i1[i]));
 		}
 		if (wrong)
 			printf("# x = %a, m = %a%+ai: sca %g, norm %g\n", x, creal(m), cimag(m), q.sca, norm);

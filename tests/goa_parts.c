@@ -114,8 +114,9 @@ static void second_order(double complex m, int p, double lo, double hi, double w
 	free(b);
 	first = sqrt(first / mean);
 	second = sqrt(second / mean);
-	ok(second < wanted && second < first / 2, "m = %g%+gi, p = %d, %g to %g degrees: rays within %.1e, to second order %.1e, wanted %.1e",
-	   creal(m), cimag(m), p, lo, hi, first, second, wanted);
+	ok(second < wanted && second < first / 2,
+	   "m = %g%+gi, p = %d, %g to %g degrees: rays within %.1e, to second order %.1e, wanted %.1e", creal(m), cimag(m), p, lo,
+	   hi, first, second, wanted);
 }
 
 static void windows(void)
@@ -127,7 +128,8 @@ static void windows(void)
 	   window_constant(&w, 0.1, 0.95) == -1 && window_constant(&w, 0.92, 2) == 0, "and says where it is constant");
 	double worst = 0;
 	for (double u = 0.31; u < 0.5; u += 0.01) {
-		double f1, f2, g1, g2, h = 1e-5, up = window_piece(0.3, 5, u + h, &g1, &g2), down = window_piece(0.3, 5, u - h, &f1, &f2), d1, d2;
+		double f1, f2, g1, g2, h = 1e-5, up = window_piece(0.3, 5, u + h, &g1, &g2);
+		double down = window_piece(0.3, 5, u - h, &f1, &f2), d1, d2;
 		window_piece(0.3, 5, u, &d1, &d2);
 		worst = fmax(worst, fmax(fabs((up - down) / (2 * h) - d1), fabs((g1 - f1) / (2 * h) - d2) / 100));
 	}
@@ -137,8 +139,9 @@ static void windows(void)
 int main(void)
 {
 	static const struct { double complex m; int p; double lo, hi, wanted; } part[] = {
-		{ 1.33, 0, 100, 180, 5e-6 }, { 1.33, 0, 60, 100, 1e-4 }, { 1.33, 1, 0, 45, 1e-4 }, { 1.33, 3, 20, 60, 3e-4 }, { 1.33, 4, 60, 80, 2e-4 },
-		{ 1.5, 1, 0, 60, 2e-4 }, { 2.5, 1, 0, 90, 1e-4 }, { 2.5, 2, 135, 180, 2e-4 }, { 0.75, 0, 120, 180, 3e-4 }, { 0.75, 1, 0, 45, 2e-4 },
+		{ 1.33, 0, 100, 180, 5e-6 }, { 1.33, 0, 60, 100, 1e-4 }, { 1.33, 1, 0, 45, 1e-4 },
+		{ 1.33, 3, 20, 60, 3e-4 }, { 1.33, 4, 60, 80, 2e-4 }, { 1.5, 1, 0, 60, 2e-4 }, { 2.5, 1, 0, 90, 1e-4 },
+		{ 2.5, 2, 135, 180, 2e-4 }, { 0.75, 0, 120, 180, 3e-4 }, { 0.75, 1, 0, 45, 2e-4 },
 		{ 1.33 + 0.001 * I, 1, 0, 45, 2e-4 },
 	};
 	enum { PARTS = sizeof part / sizeof *part };

@@ -130,7 +130,8 @@ static void model_at(int model, struct goa *goa, struct goa_plus *plus, double x
 	}
 }
 
-/* Lines m, x, model, L1, ns a size and angle, that over Mie's, us to find the rays of an angle. Models in turn, the best of several. */
+/* Lines m, x, model, L1, ns a size and angle, that over Mie's, us to find the rays of an angle. Models in turn, the best of
+ * several. */
 static void bench(void)
 {
 	enum { N = 1801 };
@@ -145,7 +146,8 @@ static void bench(void)
 	for (int i = 0; i < 3; i++)
 		for (int j = 0; j < 7; j++) {
 			double complex m = index[i];
-			double x = size[j], best[MODELS] = { INFINITY, INFINITY, INFINITY }, aim[MODELS] = { INFINITY, INFINITY, 0 };
+			double x = size[j], best[MODELS] = { INFINITY, INFINITY, INFINITY };
+			double aim[MODELS] = { INFINITY, INFINITY, 0 };
 			struct compared apart[MODELS] = { { 0 } };
 			for (int round = 0; round < 5; round++) {
 				double t0 = seconds();
@@ -172,17 +174,19 @@ static void bench(void)
 				apart[PLUS] = compare(x, m, -1);
 			}
 			for (int model = 0; model < MODELS; model++)
-				printf("%g%+gi\t%g\t%s\t%.3g\t%.3g\t%.3g\t%.3g\n", creal(m), cimag(m), x, name[model], apart[model].l1,
-				       best[model] / N * 1e9, best[model] / best[MIE], aim[model] / N * 1e6);
+				printf("%g%+gi\t%g\t%s\t%.3g\t%.3g\t%.3g\t%.3g\n", creal(m), cimag(m), x, name[model],
+				       apart[model].l1, best[model] / N * 1e9, best[model] / best[MIE], aim[model] / N * 1e6);
 		}
 }
 
 int main(int argc, char **argv)
 {
 	static const struct { double complex m; double x, l1; } row[] = {
-		{ 1.33, 100.49, 1.2e-3 }, { 1.33, 300.49, 2e-3 }, { 1.33, 1000.49, 1e-3 }, { 1.33, 3000.49, 7e-4 }, { 1.49, 1000.49, 1.1e-3 },
-		{ 1.33 + 0.001 * I, 1000.49, 1.2e-4 }, { 1.5 + 0.1 * I, 100.49, 1.5e-4 }, { 1.5 + 0.1 * I, 1000.49, 5e-5 }, { 0.75, 1000.49, 1e-3 },
-		{ 1.8, 1000.49, 6e-4 }, { 2.0, 1000.49, 1e-3 }, { 1.05, 1000.49, 1e-4 }, { 0.75 + 0.001 * I, 3000.3, 3e-4 }, { 1.7 + 1 * I, 300.3, 2e-4 },
+		{ 1.33, 100.49, 1.2e-3 }, { 1.33, 300.49, 2e-3 }, { 1.33, 1000.49, 1e-3 }, { 1.33, 3000.49, 7e-4 },
+		{ 1.49, 1000.49, 1.1e-3 }, { 1.33 + 0.001 * I, 1000.49, 1.2e-4 }, { 1.5 + 0.1 * I, 100.49, 1.5e-4 },
+		{ 1.5 + 0.1 * I, 1000.49, 5e-5 }, { 0.75, 1000.49, 1e-3 }, { 1.8, 1000.49, 6e-4 },
+		{ 2.0, 1000.49, 1e-3 }, { 1.05, 1000.49, 1e-4 }, { 0.75 + 0.001 * I, 3000.3, 3e-4 },
+		{ 1.7 + 1 * I, 300.3, 2e-4 },
 	};
 	enum { ROWS = sizeof row / sizeof *row };
 	if (argc > 1 && !strcmp(argv[1], "--bench")) {

@@ -120,7 +120,8 @@ int main(int argc, char **argv)
 	const struct opt opts[] = {
 		SIZES_OPTIONS(sizes),
 		PHASE_OPTIONS(angles),
-		{ "--order", OPT_INT, &order, 0, GOA_ORDER_MAX, "P", "highest order of rays, the number of chords inside the sphere: 3", 0 },
+		{ "--order", OPT_INT, &order, 0, GOA_ORDER_MAX, "P",
+		  "highest order of rays, the number of chords inside the sphere: 3", 0 },
 		{ "--model", OPT_CHOICE, &model.which, 0, 0, "goa|goa+|incoherent",
 		  "geometrical optics as published; with what it lacks; or without interference", 0 },
 		OPT_OUTPUT(&output),

@@ -9,9 +9,10 @@
 
 /* u_k, v_k of the asymptotic series in 1/xi, xi = (2/3) z^(3/2). */
 static const double u[TERMS] = { 1, 0.06944444444444445, 0.03713348765432099, 0.03799305912780064, 0.05764919041266972,
-	0.11609906402551541, 0.29159139923075055, 0.8776669695100169, 3.079453030173167, 12.341573332345082, 55.62278536591708 };
-static const double v[TERMS] = { 1, -0.09722222222222222, -0.043885030864197533, -0.04246283078989484, -0.06266216349203230,
-	-0.12410589602727441, -0.30825376490107994, -0.9204799924129446, -3.210493584648621, -12.807293080735547, -57.50830351391426 };
+	0.11609906402551541, 0.2915913992307505, 0.8776669695100169, 3.079453030173167, 12.341573332345238, 55.62278536591708 };
+static const double v[TERMS] = { 1, -0.09722222222222222, -0.04388503086419753, -0.04246283078989483, -0.0626621634920323,
+	-0.12410589602727509, -0.3082537649010791, -0.9204799924129445, -3.210493584648621, -12.807293080735626,
+	-57.50830351391427 };
 
 /* f, g and their derivatives: Ai = AI0 f - AIP0 g, Bi = sqrt 3 (AI0 f + AIP0 g). */
 static void series(double complex z, double complex out[4])
@@ -125,7 +126,8 @@ double complex airy_ratio(double complex z)
 		return ap / a;
 	}
 	/* Ai(z) = -(w Ai(w z) + w* Ai(w* z)), w = e^(2 pi i/3): both arguments lie where one exponential is left */
-	double complex w = CMPLX(-0.5, sqrt(0.75)), ea = cexp(-2.0 / 3 * w * z * csqrt(w * z)), eb = cexp(-2.0 / 3 * conj(w) * z * csqrt(conj(w) * z));
+	double complex w = CMPLX(-0.5, sqrt(0.75)), ea = cexp(-2.0 / 3 * w * z * csqrt(w * z));
+	double complex eb = cexp(-2.0 / 3 * conj(w) * z * csqrt(conj(w) * z));
 	falling(w * z, &a, &ap);
 	falling(conj(w) * z, &b, &bp);
 	return (w * w * ap * ea + conj(w * w) * bp * eb) / (w * a * ea + conj(w) * b * eb);

@@ -1,12 +1,12 @@
-/* debye_lanes - the partial waves of a large sphere one reflection after the other (Debye series), by asymptotic forms; part of the
- * loops that are compiled for each processor.
+/* debye_lanes - the partial waves of a large sphere one reflection after the other (Debye series), by asymptotic forms; part of
+ * the loops that are compiled for each processor.
  *
  * A wave's scattering coefficient is a_l = (1 - S_2)/2, b_l = (1 - S_1)/2, S = R + sum_(p>=1) T I^(p-1): reflected outside, or
  * transmitted into p chords. Index 0 is b_l (amplitude S1, perpendicular), index 1 is a_l. lambda = l + 1/2.
  *
  * Accuracy: relative to the exact Riccati-Bessel functions about lambda^(-4/3)/60; energy is conserved exactly for real m.
- * Source: Nussenzveig 1992, Diffraction Effects in Semiclassical Scattering, ch. 9; uniform forms: Langer's, Abramowitz and Stegun
- * 9.3.35 to 9.3.39 to leading order, and Debye's, 9.3.15, to second order away from the turning points. */
+ * Source: Nussenzveig 1992, Diffraction Effects in Semiclassical Scattering, ch. 9; uniform forms: Langer's, Abramowitz and
+ * Stegun 9.3.35 to 9.3.39 to leading order, and Debye's, 9.3.15, to second order away from the turning points. */
 #ifndef OPTICS_DEBYE_LANES_H
 #define OPTICS_DEBYE_LANES_H
 
@@ -87,10 +87,10 @@ static void debye_phases(double lambda0, double z, struct debye_phase *out)
 	}
 }
 
-/* R, T, I of one polarisation from the logarithmic derivatives and phases of the waves outside and inside. Not a loop over both: gcc
- * contracts the complex products of such a loop whatever -ffp-contract says, and builds would differ. */
-static void debye_surface(double complex f, double complex a1, double complex l1, double complex l2, double complex rx, double complex ry,
-                          double complex *r, double complex *t, double complex *i)
+/* R, T, I of one polarisation from the logarithmic derivatives and phases of the waves outside and inside. Not a loop over both:
+ * gcc contracts the complex products of such a loop whatever -ffp-contract says, and builds would differ. */
+static void debye_surface(double complex f, double complex a1, double complex l1, double complex l2, double complex rx,
+			  double complex ry, double complex *r, double complex *t, double complex *i)
 {
 	double complex a2 = conj(a1), b1 = f * l1, b2 = f * l2, d = 1 / (a1 - b2);
 	*r = -rx * (a2 - b2) * d;
@@ -125,7 +125,8 @@ static void debye_term(double x, double complex m, const struct debye_bounds *bo
 		if (cimag(m) == 0) {
 			double z = creal(y) / lambda, zeta, q;
 			langer_real(z, &zeta, &q);
-			double at = l * l * zeta, root = sqrt(sqrt(q)), ai = 1, aip = -sqrt(at) - 0.25 / at;    /* far outside but for a factor */
+			double at = l * l * zeta, root = sqrt(sqrt(q)), ai = 1;
+			double aip = -sqrt(at) - 0.25 / at; /* far outside but for a factor */
 			if (at < 30) {
 				struct airy a = airy_real(at);
 				ai = a.ai;
@@ -159,7 +160,8 @@ static void debye_term(double x, double complex m, const struct debye_bounds *bo
 		l2 = -I * c - k;
 		ry = 0;
 		if (!bounds->opaque)
-			ry = cexp(2 * I * (s - lambda * cacos(lambda / y) - M_PI / 4 - (3 + 5 * lambda * lambda / (s * s)) / (24 * s)));
+			ry = cexp(2 * I *
+				  (s - lambda * cacos(lambda / y) - M_PI / 4 - (3 + 5 * lambda * lambda / (s * s)) / (24 * s)));
 	}
 	debye_surface(f[0], a1, l1, l2, rx, ry, &out->r[0], &out->t[0], &out->i[0]);
 	debye_surface(f[1], a1, l1, l2, rx, ry, &out->r[1], &out->t[1], &out->i[1]);

@@ -56,7 +56,7 @@ double window_constant(const struct window *w, double least, double most)
 	return value;
 }
 
-/* Order p alone: clear of its rainbow, between that and the edge where there is room, else inside it; and the focus of its axis. */
+/* Order p alone: clear of its rainbow, between that and the edge where there is room, else inside it; and its axial focus. */
 static void own_window(struct window *w, double x, double n, int p, double wide, double near)
 {
 	double s = cbrt(x / 2) / x, focus = FOCUS / sqrt(x), from = 0;
@@ -92,7 +92,8 @@ static void set_windows(struct edge *e)
 	if (edge_separable(x, e->m, x * (1 + EDGE_TOP * s))) {
 		begin = wide;
 		for (int p = 0; p <= EDGE_ORDERS + 1; p++)
-			own_window(&e->window[p], x, n, p <= EDGE_ORDERS ? p : 0, wide, p <= EDGE_ORDERS ? near : 1 - (WIDE - 15) * s);
+			own_window(&e->window[p], x, n, p <= EDGE_ORDERS ? p : 0, wide,
+				   p <= EDGE_ORDERS ? near : 1 - (WIDE - 15) * s);
 	} else if (n + WIDE * sy < wide) {
 		struct window *w = &e->only[0];
 		begin = turn;
@@ -123,7 +124,8 @@ static void set_windows(struct edge *e)
 }
 
 /* Room for waves l of u from .. to; their coefficients, and the spectrum. */
-static int strip_set(const struct goa_lanes *lanes, struct edge *e, struct edge_strip *strip, double from, double to, double about, const struct window *only)
+static int strip_set(const struct goa_lanes *lanes, struct edge *e, struct edge_strip *strip, double from, double to,
+		     double about, const struct window *only)
 {
 	int first = (int)fmax(floor(from * e->x - 0.5), 1), last = (int)fmax(ceil(to * e->x), 2);
 	size_t n = (size_t)(last - first) + 1;
@@ -175,7 +177,8 @@ int edge_set(const struct goa_lanes *lanes, struct edge *e, double x, double com
 		         strip_set(lanes, e, &e->strip[1], e->only[1].zero[0], top, 1, &e->only[1]);
 	if (focus > 0 && focus < begin) {
 		e->n = 2;
-		return strip_set(lanes, e, &e->strip[0], 0, focus, focus / 2, NULL) || strip_set(lanes, e, &e->strip[1], begin, top, 1, NULL);
+		return strip_set(lanes, e, &e->strip[0], 0, focus, focus / 2, NULL) ||
+		       strip_set(lanes, e, &e->strip[1], begin, top, 1, NULL);
 	}
 	return strip_set(lanes, e, &e->strip[0], focus > 0 ? 0 : begin, top, creal(m) < 1 ? (begin + 1) / 2 : 1, NULL);
 }
@@ -194,7 +197,8 @@ void edge_aim(int n, const double *theta, struct edge_packet *out)
 		struct edge_packet *k = &out[b];
 		k->sine = 1;
 		for (int i = 0; i < EDGE_WIDTH; i++) {
-			double t = theta[b * EDGE_WIDTH + i < n ? b * EDGE_WIDTH + i : n - 1], f = fmin(t, 180 - t) * (M_PI / 180);
+			double t = theta[b * EDGE_WIDTH + i < n ? b * EDGE_WIDTH + i : n - 1];
+			double f = fmin(t, 180 - t) * (M_PI / 180);
 			double sine = sin(f), cosine = t > 90 ? -cos(f) : cos(f), r = t * (M_PI / 180);
 			k->theta[i] = r;
 			k->folded[i] = f;
@@ -220,7 +224,8 @@ void edge_start(int l, double theta, double *p, double *v)
 		return;
 	}
 	double st = sin(theta), half = sin(theta / 2), cot = cos(theta) / st, q = sqrt(theta / st);
-	double z1 = nu * theta + 0.375 * (cot - 1 / theta) / nu, z0 = nu * theta - (tan(theta / 2) + 0.125 * (cot - 1 / theta)) / nu;
+	double z1 = nu * theta + 0.375 * (cot - 1 / theta) / nu;
+	double z0 = nu * theta - (tan(theta / 2) + 0.125 * (cot - 1 / theta)) / nu;
 	*p = sqrt(both) * q * j1(z1) / st;
 	*v = (both * q * j0(z0) + l * 2 * half * half * *p) / (l + 1);
 }
@@ -228,7 +233,8 @@ void edge_start(int l, double theta, double *p, double *v)
 double edge_disc(int n, double theta)
 {
 	/* P'_n + P'_(n+1) - (P_n + P_(n+1))/(1 + cos theta) */
-	double sum = 0, st = sin(theta), bend = theta > 1e-3 ? 1 / theta - cos(theta) / st : theta / 3, q = theta > 0 ? sqrt(theta / st) : 1;
+	double sum = 0, st = sin(theta), bend = theta > 1e-3 ? 1 / theta - cos(theta) / st : theta / 3;
+	double q = theta > 0 ? sqrt(theta / st) : 1;
 	for (int l = n; l <= n + 1; l++) {
 		double nu = l + 0.5, z = nu * theta + bend / (8 * nu), v = j0(z);
 		double slope = theta > 1e-9 ? (nu * j1(z) - bend * v / 2) / st : (nu * nu - 1.0 / 3) / 2;

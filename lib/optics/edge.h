@@ -13,8 +13,8 @@
 
 #define EDGE_ORDERS 8      /* orders 0 .. 8 have windows of their own; those above are in no ray and share one */
 
-/* W rises or falls in each of its pieces, smoothly, and is 0 or 1 beyond: with t = (u - zero) over, clamped to [0, 1], it is a polynomial
- * that goes from 0 to 1 with three derivatives. Piece k holds from u = from[k] on. */
+/* W rises or falls in each of its pieces, smoothly, and is 0 or 1 beyond: with t = (u - zero) over, clamped to [0, 1], it is a
+ * polynomial that goes from 0 to 1 with three derivatives. Piece k holds from u = from[k] on. */
 #define WINDOW_PIECES 3
 struct window {
 	int n;
@@ -25,8 +25,10 @@ struct edge_strip {
 	size_t room;               /* waves that there is memory for */
 	int first, n;              /* waves l = first .. first + n - 1 */
 	double about;              /* l + 1/2 where most of the light is */
-	double *sum, *sum_behind, *difference;    /* coefficients of S1 + S2 (the disc's wave removed; not removed) and S1 - S2, re, im */
-	struct spectrum spectrum;  /* of the same over sqrt(l + 1/2); size 0: no angle is far from both axes for such long waves */
+	/* coefficients of S1 + S2 (the disc's wave removed; not removed) and S1 - S2, re, im */
+	double *sum, *sum_behind, *difference;
+	/* of the same over sqrt(l + 1/2); size 0: no angle is far from both axes for such long waves */
+	struct spectrum spectrum;
 };
 
 struct edge {
@@ -71,13 +73,13 @@ double window_constant(const struct window *w, double least, double most);
 #define EDGE_TOP 6         /* the same from the edge to where waves end */
 #define EDGE_FAR 16        /* (l + 1/2) sin theta from which on angular functions are cosines */
 
-/* For x |n - 1| below EDGE_SOFT rays are not distinct from what passes by: all is waves, up to x = EDGE_SOFT_MAX, where it would take
- * too long. */
+/* For x |n - 1| below EDGE_SOFT rays are not distinct from what passes by: all is waves, up to x = EDGE_SOFT_MAX, where it would
+ * take too long. */
 #define EDGE_SOFT 60
 #define EDGE_SOFT_MAX 2e4
 
-/* edge_separable - whether the orders p can be told apart at lambda: it lies inside the turning point |m| x of the wave within the
- * sphere by more than the width of that point, or absorption leaves nothing of those inside. */
+/* edge_separable - whether the orders p can be told apart at lambda: it lies inside the turning point |m| x of the wave within
+ * the sphere by more than the width of that point, or absorption leaves nothing of those inside. */
 int edge_separable(double x, double complex m, double lambda);
 
 struct goa_lanes;
@@ -95,7 +97,7 @@ struct edge_packet {
 	double behind[EDGE_WIDTH];                        /* 1 beyond 90 degrees, else 0 */
 	double root[EDGE_WIDTH];                          /* sqrt(2/(pi sin theta)) */
 	double plus[EDGE_WIDTH], minus[EDGE_WIDTH];       /* c of order.h, of S1 + S2 and S1 - S2 */
-	double bend[EDGE_WIDTH], slope[EDGE_WIDTH], slant[EDGE_WIDTH];    /* of the disc: 1/theta - cot theta, 1/sin, 1/(1 + cos) */
+	double bend[EDGE_WIDTH], slope[EDGE_WIDTH], slant[EDGE_WIDTH]; /* of the disc: 1/theta - cot theta, 1/sin, 1/(1 + cos) */
 	double sine;                                      /* the least */
 };
 

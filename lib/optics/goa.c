@@ -80,7 +80,8 @@ static int enter(double complex m, struct entry *out)
 	int k = 0;
 	for (int panel = 0; panel < 2 * PANELS; panel++) {
 		int inside = panel < PANELS;
-		double width = (inside ? edge : M_PI / 2 - edge) / PANELS, lo = inside ? width * panel : edge + width * (panel - PANELS);
+		double width = (inside ? edge : M_PI / 2 - edge) / PANELS;
+		double lo = inside ? width * panel : edge + width * (panel - PANELS);
 		if (width == 0)
 			break;
 		for (int j = 0; j < NODES; j++) {
@@ -192,7 +193,8 @@ static double glory(const struct goa *g, double x)
 	for (int i = 0; i < g->fronts; i++) {
 		const struct goa_beam *b = &g->front[i];
 		if (!b->ray.axial)
-			sum += 2 / x * goa_spread(x, &b->ray, &cap[b->ray.p]) * (cabs(b->f1) + cabs(b->f2)) * exp(-x * cimag(b->path));
+			sum += 2 / x * goa_spread(x, &b->ray, &cap[b->ray.p]) * (cabs(b->f1) + cabs(b->f2)) *
+			       exp(-x * cimag(b->path));
 	}
 	return sum;
 }

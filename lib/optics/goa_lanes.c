@@ -56,7 +56,8 @@ static void incoherent(const struct goa_packet *k, size_t n, double x, const str
 	}
 }
 
-#define HANKEL 14    /* argument from which on Bessel functions are taken from Hankel's asymptotics (Abramowitz and Stegun 9.2.5 to 9.2.10) */
+/* Argument from which on Bessel functions are taken from Hankel's asymptotics, Abramowitz and Stegun 9.2.5 to 9.2.10. */
+#define HANKEL 14
 
 static void diffraction(const struct goa_angles *k, double x, double d[GOA_WIDTH])
 {
@@ -117,7 +118,8 @@ static void plus_windowed(const struct plus_packet *k, const struct window *w, d
 	plus_sizes(k, x, size);
 	/* pieces that are not there begin beyond every u */
 	const double from1 = w->n > 1 ? w->from[1] : 2, from2 = w->n > 2 ? w->from[2] : 2;
-	const double zero0 = w->zero[0], zero1 = w->zero[1], zero2 = w->zero[2], over0 = w->over[0], over1 = w->over[1], over2 = w->over[2];
+	const double zero0 = w->zero[0], zero1 = w->zero[1], zero2 = w->zero[2], over0 = w->over[0], over1 = w->over[1];
+	const double over2 = w->over[2];
 #pragma omp simd
 	for (int i = 0; i < PLUS_WIDTH; i++) {
 		double sine, cosine, over = x / (x * x + k->hold[i]), u = k->u[i], w1, w2;
@@ -149,12 +151,14 @@ static void plus(const struct plus_packet *k, size_t n, const struct edge *e, do
 	}
 }
 
-/* The partial waves of a strip one by one, in the front half by theta, behind by pi - theta; out: S1 + S2 re, im, S1 - S2 re, im. */
+/* The partial waves of a strip one by one, in the front half by theta, behind by pi - theta; out: S1 + S2, S1 - S2 (re, im). */
 static void direct(const struct edge_strip *strip, int behind, const double *theta, double out[4][EDGE_WIDTH])
 {
-	double c[EDGE_WIDTH], p[EDGE_WIDTH], v[EDGE_WIDTH], sr[EDGE_WIDTH] = { 0 }, si[EDGE_WIDTH] = { 0 }, dr[EDGE_WIDTH] = { 0 }, di[EDGE_WIDTH] = { 0 };
+	double c[EDGE_WIDTH], p[EDGE_WIDTH], v[EDGE_WIDTH];
+	double sr[EDGE_WIDTH] = { 0 }, si[EDGE_WIDTH] = { 0 }, dr[EDGE_WIDTH] = { 0 }, di[EDGE_WIDTH] = { 0 };
 	/* behind, pi_l + tau_l and pi_l - tau_l change places, with (-1)^(l-1) */
-	const double *with_plus = behind ? strip->difference : strip->sum, *with_minus = behind ? strip->sum_behind : strip->difference;
+	const double *with_plus = behind ? strip->difference : strip->sum;
+	const double *with_minus = behind ? strip->sum_behind : strip->difference;
 	for (int i = 0; i < EDGE_WIDTH; i++) {
 		double h = sin(theta[i] / 2);
 		c[i] = 2 * h * h;
@@ -163,7 +167,8 @@ static void direct(const struct edge_strip *strip, int behind, const double *the
 	for (int k = 0; k < strip->n; k++) {
 		int l = strip->first + k;
 		double f = l, f1 = f + 1, k1 = f1 / f, k2 = (2 * f + 1) / f, norm = (behind && l % 2 == 0 ? -1 : 1) / (f * f1);
-		double xr = with_plus[2 * k] * norm, xi = with_plus[2 * k + 1] * norm, yr = with_minus[2 * k] * norm, yi = with_minus[2 * k + 1] * norm;
+		double xr = with_plus[2 * k] * norm, xi = with_plus[2 * k + 1] * norm, yr = with_minus[2 * k] * norm;
+		double yi = with_minus[2 * k + 1] * norm;
 #pragma omp simd
 		for (int i = 0; i < EDGE_WIDTH; i++) {
 			double cp = c[i] * p[i], plus = f1 * v[i] - f * cp, minus = 2 * p[i] - plus;
@@ -214,7 +219,8 @@ static void near_axis(const struct edge *e, const struct edge_packet *k, double 
 typedef double row __attribute__((vector_size(32), aligned(8), may_alias));
 
 /* Where in a spectrum EDGE_WIDTH angles are: the row below, and the kernel's weights of the rows from 3 before it on. */
-static void locate(const struct spectrum *spectrum, const double phi[EDGE_WIDTH], int at[EDGE_WIDTH], double weight[SPECTRUM_TAPS][EDGE_WIDTH])
+static void locate(const struct spectrum *spectrum, const double phi[EDGE_WIDTH], int at[EDGE_WIDTH],
+		   double weight[SPECTRUM_TAPS][EDGE_WIDTH])
 {
 	double part[EDGE_WIDTH], size = spectrum->size;
 	for (int i = 0; i < EDGE_WIDTH; i++) {
@@ -230,18 +236,20 @@ static void locate(const struct spectrum *spectrum, const double phi[EDGE_WIDTH]
 		}
 }
 
-/* Away from the axes, where d^l_1,+-1 = sqrt(2/(pi nu sin theta)) cos(nu theta - pi/4 - c/nu), nu = l + 1/2; c/nu linear in nu. */
+/* Away from the axes, where d^l_1,+-1 = sqrt(2/(pi nu sin theta)) cos(nu theta - pi/4 - c/nu), nu = l + 1/2. */
 static void far_strip(const struct edge_strip *strip, const struct edge_packet *k, double s[4][EDGE_WIDTH])
 {
 	const struct spectrum *spectrum = &strip->spectrum;
-	double nu = strip->about, centre = strip->first + strip->n / 2 + 0.5, phi[EDGE_WIDTH], weight[SPECTRUM_TAPS][EDGE_WIDTH], value[8][EDGE_WIDTH];
+	double nu = strip->about, centre = strip->first + strip->n / 2 + 0.5, phi[EDGE_WIDTH], weight[SPECTRUM_TAPS][EDGE_WIDTH];
+	double value[8][EDGE_WIDTH];
 	int at[EDGE_WIDTH];
 	for (int i = 0; i < EDGE_WIDTH; i++)
 		phi[i] = k->theta[i] + (k->plus[i] + k->minus[i]) / (2 * nu * nu);
 	locate(spectrum, phi, at, weight);
 	for (int i = 0; i < EDGE_WIDTH; i++) {
 		/* the sums at phi and -phi */
-		const double *above = spectrum->row + 8 * (at[i] - 3), *below = spectrum->row + 8 * (((spectrum->size - at[i]) & (spectrum->size - 1)) + 3);
+		const double *above = spectrum->row + 8 * (at[i] - 3);
+		const double *below = spectrum->row + 8 * (((spectrum->size - at[i]) & (spectrum->size - 1)) + 3);
 		row up_re = { 0 }, up_im = { 0 }, down_re = { 0 }, down_im = { 0 };
 		for (int t = 0; t < SPECTRUM_TAPS; t++) {
 			up_re += weight[t][i] * *(const row *)(above + 8 * t);
@@ -250,13 +258,15 @@ static void far_strip(const struct edge_strip *strip, const struct edge_packet *
 			down_im += weight[t][i] * *(const row *)(below - 8 * t + 4);
 		}
 		int sum = k->behind[i] != 0;
-		const double found[8] = { up_re[sum], up_im[sum], down_re[sum], down_im[sum], up_re[2], up_im[2], down_re[2], down_im[2] };
+		const double found[8] = { up_re[sum], up_im[sum], down_re[sum], down_im[sum],
+			up_re[2], up_im[2], down_re[2], down_im[2] };
 		for (int j = 0; j < 8; j++)
 			value[j][i] = found[j];
 	}
 #pragma omp simd
 	for (int i = 0; i < EDGE_WIDTH; i++) {
-		double shift = (k->plus[i] + k->minus[i]) / (2 * nu * nu), base = nu * k->theta[i] + (centre - nu) * (k->theta[i] + shift);
+		double shift = (k->plus[i] + k->minus[i]) / (2 * nu * nu);
+		double base = nu * k->theta[i] + (centre - nu) * (k->theta[i] + shift);
 		double sine, cosine, half = k->root[i] / 2;
 		/* e^(i a) E(phi) + e^(-i a) E(-phi) */
 		lane_sincos((base - k->plus[i] / nu) * M_2_PI - 0.5, &sine, &cosine);
@@ -282,8 +292,10 @@ static void far_disc(int n, const struct edge_packet *k, double s[4][EDGE_WIDTH]
 		for (int l = n; l <= n + 1; l++) {
 			double nu = l + 0.5, z = nu * k->theta[i] + k->bend[i] / (8 * nu), w = 1 / z, w2 = w * w, sine, cosine;
 			lane_sincos(z * M_2_PI - 0.5, &sine, &cosine);
-			double p0 = 1 + w2 * (-0.0703125 + 0.112152099609375 * w2), q0 = w * (-0.125 + w2 * (0.0732421875 - 0.227108001708984375 * w2));
-			double p1 = 1 + w2 * (0.1171875 - 0.144195556640625 * w2), q1 = w * (0.375 + w2 * (-0.1025390625 + 0.277576446533203125 * w2));
+			double p0 = 1 + w2 * (-0.0703125 + 0.112152099609375 * w2);
+			double q0 = w * (-0.125 + w2 * (0.0732421875 - 0.227108001708984375 * w2));
+			double p1 = 1 + w2 * (0.1171875 - 0.144195556640625 * w2);
+			double q1 = w * (0.375 + w2 * (-0.1025390625 + 0.277576446533203125 * w2));
 			double v0 = p0 * cosine - q0 * sine, v1 = p1 * sine + q1 * cosine;
 			sum += sqrt(1 / nu) * ((nu * v1 - k->bend[i] * v0 / 2) * k->slope[i] - v0 * k->slant[i]);
 		}
@@ -331,7 +343,8 @@ static double coefficients(const struct edge *e, const struct window *only, stru
 			for (int j = 0; j < 2; j++) {
 				/* all p >= 1 in closed form with the last one's share, and what the others have more */
 				double complex part = d.t[j], rays = rest * part / (1 - d.i[j]);
-				for (int p = 1; p <= EDGE_ORDERS && fabs(creal(part)) + fabs(cimag(part)) > 1e-8; p++, part *= d.i[j])
+				for (int p = 1; p <= EDGE_ORDERS && fabs(creal(part)) + fabs(cimag(part)) > 1e-8;
+				     p++, part *= d.i[j])
 					rays += (w[p] - rest) * part;
 				s[j] = -(w[0] * (d.r[j] - beyond) + rays) / 2;
 				if (e->whole) {
@@ -380,7 +393,8 @@ static double absorption(const struct edge *e)
 		}
 	for (int k = 0; k + 1 < panels; k++)
 		for (int i = 0; i < 8; i++) {
-			double half = (at[k + 1] - at[k]) / 2, u = (at[k] + at[k + 1]) / 2 + half * (i < 4 ? -node[3 - i] : node[i - 4]);
+			double half = (at[k + 1] - at[k]) / 2;
+			double u = (at[k] + at[k + 1]) / 2 + half * (i < 4 ? -node[3 - i] : node[i - 4]);
 			struct debye d;
 			struct debye_phase outside, inside;
 			if (u <= 0 || u > 1 + 8 * s)
@@ -389,7 +403,8 @@ static double absorption(const struct edge *e)
 			debye_phases(x * u, x * n, &inside);
 			debye_term(x, e->m, &bounds, x * u, 0, &outside, &inside, &d);
 			for (int j = 0; j < 2; j++) {
-				double r = creal(d.r[j] * conj(d.r[j])), t = creal(d.t[j] * conj(d.t[j])), in = creal(d.i[j] * conj(d.i[j]));
+				double r = creal(d.r[j] * conj(d.r[j])), t = creal(d.t[j] * conj(d.t[j]));
+				double in = creal(d.i[j] * conj(d.i[j]));
 				q += half * (i < 4 ? weight[3 - i] : weight[i - 4]) * u * (1 - r - (t > 0 ? t / (1 - in) : 0));
 			}
 		}

@@ -1,5 +1,5 @@
-/* goa_lanes - the loops of GOA and GOA+ that take the time, each over PLUS_WIDTH angles side by side; one source, compiled for each
- * processor. All builds give the same bits. */
+/* goa_lanes - the loops of GOA and GOA+ that take the time, each over PLUS_WIDTH angles side by side; one source, compiled for
+ * each processor. All builds give the same bits. */
 #ifndef OPTICS_GOA_LANES_H
 #define OPTICS_GOA_LANES_H
 
@@ -17,8 +17,8 @@ struct goa_lanes {
 	void (*plus)(const struct plus_packet *k, size_t n, const struct edge *e, double s[4][PLUS_WIDTH]);
 	/* waves of GOA+ and the disc they leave: s += the same at the angles of a packet */
 	void (*waves)(const struct edge *e, const struct edge_packet *k, double s[4][EDGE_WIDTH]);
-	/* coefficients of the waves of a strip, whose number and room are set; W_p is only, or without that, the edge's. Returns what these
-	 * waves lose by absorption, sum (2l + 1) (1 - |S|^2)/2, where all of each is in the strip. */
+	/* coefficients of the waves of a strip, whose number and room are set; W_p is only, or without that, the edge's. Returns
+	 * what these waves lose by absorption, sum (2l + 1) (1 - |S|^2)/2, where all of each is in the strip. */
 	double (*coefficients)(const struct edge *e, const struct window *only, struct edge_strip *strip);
 	/* efficiency of absorption: u (1 - |S|^2) over all impact parameters, ripple averaged where S is not summed */
 	double (*absorption)(const struct edge *e);
@@ -29,8 +29,8 @@ extern const struct goa_lanes goa_lanes_scalar;
 extern const struct goa_lanes goa_lanes_v2, goa_lanes_v3, goa_lanes_v4;
 #endif
 
-/* goa_lanes - the best for this processor, or what MOTES_CPU in the environment names; NULL where that is none of scalar, v2, v3, v4
- * or more than this processor can. */
+/* goa_lanes - the best for this processor, or what MOTES_CPU in the environment names; NULL where that is none of scalar, v2, v3,
+ * v4 or more than this processor can. */
 const struct goa_lanes *goa_lanes(void);
 
 #endif

@@ -102,7 +102,8 @@ void goa_grid_free(struct goa_grid *g)
 	memset(g, 0, sizeof *g);
 }
 
-double goa_grid_sum(const struct goa_lanes *lanes, const struct goa_grid *g, int interfere, double x, const struct goa_cap *cap, double *along)
+double goa_grid_sum(const struct goa_lanes *lanes, const struct goa_grid *g, int interfere, double x, const struct goa_cap *cap,
+		    double *along)
 {
 	double sum = 0;
 	*along = 0;
@@ -123,17 +124,20 @@ double goa_grid_sum(const struct goa_lanes *lanes, const struct goa_grid *g, int
 		lanes->diffraction(angles, x, d);
 		for (int i = 0; i < GOA_WIDTH; i++) {
 			int k = b * GOA_WIDTH + i;
-			double share = interfere ? g->share[k] : 0, root = angles->root[i], re1 = s[0][i] + d[i], re2 = s[2][i] + d[i];
+			double share = interfere ? g->share[k] : 0, root = angles->root[i], re1 = s[0][i] + d[i];
+			double re2 = s[2][i] + d[i];
 			double value = share * (re1 * re1 + s[1][i] * s[1][i] + re2 * re2 + s[3][i] * s[3][i]) / 2;
 			if (share < 1) {
 				/* far from the front the mean of the lobe's rings */
-				double power = (apart[0][i] + apart[1][i]) / 2 + (g->share[k] > 0 ? d[i] * d[i] : x * root * root / 2);
+				double power = (apart[0][i] + apart[1][i]) / 2 +
+					(g->share[k] > 0 ? d[i] * d[i] : x * root * root / 2);
 				if (interfere && root != 0) {
-					/* the reflected ray and that half of diffraction whose phase keeps to it: towards the front
-					 * they part only as x theta^3/8 */
+					/* the reflected ray and that half of diffraction whose phase keeps to it: towards the
+					 * front they part only as x theta^3/8 */
 					double sine, cosine;
 					lane_sincos(x * g->path[k], &sine, &cosine);
-					power += x * sqrt(x) * root / 2 * (creal(g->reflected[k]) * cosine - cimag(g->reflected[k]) * sine);
+					power += x * sqrt(x) * root / 2 *
+						 (creal(g->reflected[k]) * cosine - cimag(g->reflected[k]) * sine);
 				}
 				value += (1 - share) * power;
 			}

@@ -4,9 +4,9 @@
 
 #include "optics/goa_lanes.h"
 
-/* Panels of GOA_WIDTH Gauss nodes for sizes in (X/2, X]. Near the axes, or everywhere where X is small, interference is resolved; between
- * there only the powers of the rays are added and the one cross term that is slow: p = 0 against diffraction. Other interference
- * averages out: it has neither ends nor points of rest there. */
+/* Panels of GOA_WIDTH Gauss nodes for sizes in (X/2, X]. Near the axes, or everywhere where X is small, interference is resolved;
+ * between there only the powers of the rays are added and the one cross term that is slow: p = 0 against diffraction. Other
+ * interference averages out: it has neither ends nor points of rest there. */
 struct goa_grid {
 	struct goa_rays rays;
 	double *weight;               /* with 2 pi sin theta */
@@ -21,6 +21,7 @@ int goa_grid_new(double complex m, int order, const struct caustic *caustic, dou
 void goa_grid_free(struct goa_grid *g);
 
 /* goa_grid_sum - the integral of (|S1|^2 + |S2|^2)/2, with interference or without. *along: the same times cos theta. */
-double goa_grid_sum(const struct goa_lanes *lanes, const struct goa_grid *g, int interfere, double x, const struct goa_cap *cap, double *along);
+double goa_grid_sum(const struct goa_lanes *lanes, const struct goa_grid *g, int interfere, double x, const struct goa_cap *cap,
+		    double *along);
 
 #endif

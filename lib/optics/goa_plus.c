@@ -45,7 +45,8 @@ int goa_plus_aim(struct goa_plus *g, int n, const double *theta)
 	return plus_rays_find(g->m, n, theta, &g->asked);
 }
 
-static void amplitudes(const struct goa_lanes *lanes, const struct plus_rays *r, const struct edge *e, double complex *s1, double complex *s2)
+static void amplitudes(const struct goa_lanes *lanes, const struct plus_rays *r, const struct edge *e, double complex *s1,
+		       double complex *s2)
 {
 	for (int b = 0, from = 0; from < r->n; b++, from += PLUS_WIDTH) {
 		double s[4][PLUS_WIDTH] = { { 0 } };

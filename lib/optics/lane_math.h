@@ -1,5 +1,5 @@
-/* lane_math - elementary functions without branches, so that loops over them become vector code. Only + - * / and sqrt of doubles and
- * operations on their bits: the same bits at every width of vector. */
+/* lane_math - elementary functions without branches, so that loops over them become vector code. Only + - * / and sqrt of
+ * doubles and operations on their bits: the same bits at every width of vector. */
 #ifndef OPTICS_LANE_MATH_H
 #define OPTICS_LANE_MATH_H
 
@@ -37,8 +37,9 @@ static inline void lane_sincos(double t, double *s, double *c)
 	double f = t - (k - LANE_ROUND), w = f * f;
 	double sine = f * (1.5707963267948966 + w * (-0.6459640975062463 + w * (0.07969262624616704 + w * (-0.004681754135318688 +
 		w * (0.00016044118478735982 + w * (-3.598843235212085e-06 + w * 5.692172921967926e-08))))));
-	double cosine = 1 + w * (-1.2337005501361697 + w * (0.253669507901048 + w * (-0.020863480763352961 + w * (0.00091926027483942659 +
-		w * (-2.5202042373060605e-05 + w * (4.7108747788181716e-07 + w * -6.3866030837918522e-09))))));
+	double cosine = 1 + w * (-1.2337005501361697 + w * (0.253669507901048 + w * (-0.020863480763352961 +
+		w * (0.00091926027483942659 + w * (-2.5202042373060605e-05 +
+		w * (4.7108747788181716e-07 + w * -6.3866030837918522e-09))))));
 	int64_t si = lane_bits(sine), ci = lane_bits(cosine);
 	*s = lane_double(((odd & ci) | (~odd & si)) ^ (int64_t)((uint64_t)(q & 2) << 62));
 	*c = lane_double(((odd & si) | (~odd & ci)) ^ (int64_t)((uint64_t)((q + 1) & 2) << 62));
@@ -51,8 +52,9 @@ static inline double lane_atan2(double y, double x)
 	double far = lane_select(0.41421356237309503, t, 1, 0);      /* beyond tan(pi/8), from pi/4 */
 	t = lane_select(0.41421356237309503, t, (low - high) / (low + high), t);
 	double w = t * t;
-	double a = t * (1 - w * (1.0 / 3 - w * (1.0 / 5 - w * (1.0 / 7 - w * (1.0 / 9 - w * (1.0 / 11 - w * (1.0 / 13 - w * (1.0 / 15 -
-		w * (1.0 / 17 - w * (1.0 / 19 - w * (1.0 / 21 - w * (1.0 / 23 - w * (1.0 / 25 - w / 27)))))))))))));
+	double a = t * (1 - w * (1.0 / 3 - w * (1.0 / 5 - w * (1.0 / 7 - w * (1.0 / 9 - w * (1.0 / 11 - w * (1.0 / 13 -
+		w * (1.0 / 15 - w * (1.0 / 17 - w * (1.0 / 19 - w * (1.0 / 21 -
+		w * (1.0 / 23 - w * (1.0 / 25 - w / 27)))))))))))));
 	a += far * 0.7853981633974483;
 	return lane_select(y, x, a, 1.5707963267948966 - a);
 }

@@ -19,7 +19,8 @@ void order_amplitude(int p, double complex m, double complex u, double epsilon, 
 		if (cimag(u) == 0 && cimag(q) < 0)
 			q = -q;
 	}
-	double complex k = epsilon ? epsilon * u2 / (2 * ci * ci) : 0, ky = epsilon ? epsilon * u2 / (2 * m * q * q) : 0, over = inverse(m), c = q * over;
+	double complex k = epsilon ? epsilon * u2 / (2 * ci * ci) : 0, ky = epsilon ? epsilon * u2 / (2 * m * q * q) : 0;
+	double complex over = inverse(m), c = q * over;
 	double complex a1 = I * ci - k, a2 = -I * ci - k, l1 = I * c - ky, l2 = -I * c - ky;
 	for (int j = 0; j < 2; j++) {
 		double complex a = j ? over : m, b1 = a * l1, b2 = a * l2, d = inverse(a1 - b2);
@@ -44,7 +45,8 @@ double complex order_path(int p, double complex m, double complex u)
 	/* sqrt(m^2 - s^2) - s (arccos(s/m) - arccos(s/n)): the ray of the real index, exact to first order beyond it (physics of
 	 * Guo et al. 2022, appendix C, improved) */
 	double n = creal(m);
-	double complex chord = csqrt(m * m - u * u) - u * (cacos(u / m) - (cimag(u) == 0 ? acos(fmin(creal(u) / n, 1)) : cacos(u / n)));
+	double complex real = cimag(u) == 0 ? acos(fmin(creal(u) / n, 1)) : cacos(u / n);
+	double complex chord = csqrt(m * m - u * u) - u * (cacos(u / m) - real);
 	if (cimag(u) != 0)
 		return 2 * (p * chord - ci);
 	return CMPLX(2 * p * creal(chord) - 2 * creal(ci), 2 * p * fmax(cimag(chord), 0));

@@ -63,15 +63,16 @@ static double complex incidence(double n, int p, double complex i, double tau)
 	return i;
 }
 
-/* Chester-Friedman-Ursell: S = sqrt(pi) e^(iX) { (G_A h_A + G_B h_B) Ai(-zeta) + i [(G_B h_B - G_A h_A)/rho] Ai'(-zeta) }. eighths:
- * of the ray inside the rainbow's, whose Theta' < 0. Returns the size from which on rays do without. */
+/* Chester-Friedman-Ursell: S = sqrt(pi) e^(iX) { (G_A h_A + G_B h_B) Ai(-zeta) + i [(G_B h_B - G_A h_A)/rho] Ai'(-zeta) }.
+ * eighths: of the ray inside the rainbow's, whose Theta' < 0. Returns the size from which on rays do without. */
 static double rainbow(const struct direction *d, double tau, int eighths, struct plus_rainbow *out)
 {
 	double n = creal(d->m), c = d->caustic.incidence, bend = d->caustic.bend, beside = tau - d->caustic.tau;
 	if (fabs(beside) < 5e-7 * bend)
 		beside = 5e-7 * bend;
 	tau = d->caustic.tau + beside;
-	double complex part = csqrt(2 * beside / bend), at[2] = { incidence(n, d->p, c - part, tau), incidence(n, d->p, c + part, tau) };
+	double complex part = csqrt(2 * beside / bend);
+	double complex at[2] = { incidence(n, d->p, c - part, tau), incidence(n, d->p, c + part, tau) };
 	double complex slope[2], path[2], g[2][2], u[2];
 	for (int k = 0; k < 2; k++) {
 		double complex f[2], ci = ccos(at[k]);
@@ -84,8 +85,9 @@ static double rainbow(const struct direction *d, double tau, int eighths, struct
 	}
 	double complex rho = slope[1] * cpow(0.75 * (path[1] - path[0]) / (slope[1] * slope[1] * slope[1]), 1.0 / 3);
 	double complex ha = csqrt(-rho / slope[0]), hb = csqrt(rho / slope[1]);
-	*out = (struct plus_rainbow){ .angle = d->angle, .p = d->p, .sine = d->sine, .u = sin(c), .path = creal(path[0] + path[1]) / 2,
-		.zeta = creal(rho * rho), .ua = beside > 0 ? creal(u[0]) : sin(c), .ub = beside > 0 ? creal(u[1]) : sin(c), .over_rho = I / rho };
+	*out = (struct plus_rainbow){ .angle = d->angle, .p = d->p, .sine = d->sine, .u = sin(c),
+		.path = creal(path[0] + path[1]) / 2, .zeta = creal(rho * rho), .over_rho = I / rho,
+		.ua = beside > 0 ? creal(u[0]) : sin(c), .ub = beside > 0 ? creal(u[1]) : sin(c) };
 	for (int j = 0; j < 2; j++) {
 		out->a[j] = g[0][j] * ha;
 		out->b[j] = g[1][j] * hb;
@@ -93,7 +95,7 @@ static double rainbow(const struct direction *d, double tau, int eighths, struct
 	if (cimag(d->m) != 0) {
 		out->fade_a = I * (order_path(d->p, d->m, u[0]) - path[0]);
 		out->fade_b = I * (order_path(d->p, d->m, u[1]) - path[1]);
-		if (creal(out->fade_a) > 0 || creal(out->fade_b) > 0)     /* a wave absorbed far too much to be near the real ray */
+		if (creal(out->fade_a) > 0 || creal(out->fade_b) > 0) /* a wave absorbed far too much to be near the real ray */
 			out->fade_a = out->fade_b = -INFINITY;
 	}
 	double most = out->zeta > 0 ? ZETA_BRIGHT : ZETA_DARK;
@@ -112,7 +114,8 @@ static double glory(const struct direction *d, int back, const struct ray *plus,
 		const struct ray *r = k ? minus : plus;
 		double complex f[2];
 		order_amplitude(d->p, d->m, r->sin_i, 0, f);
-		double complex scale = -sqrt(r->sin_i * r->cos_i / r->slope * M_PI_2 * ratio) * eighth(k ? r->eighths - 1 : r->eighths + 1);
+		double complex scale =
+		    -sqrt(r->sin_i * r->cos_i / r->slope * M_PI_2 * ratio) * eighth(k ? r->eighths - 1 : r->eighths + 1);
 		half[k][0] = scale * (f[0] + f[1]) / 2;
 		half[k][1] = scale * (f[0] - f[1]) / 2;
 	}
@@ -147,8 +150,9 @@ static void keep(struct direction *d, const struct ray *r, double from)
 	order_terms(d->p, d->m, r->sin_i, d->theta * (M_PI / 180), r->sigma, r->axial, &d->found[k].terms);
 }
 
-/* The other ray of a glory, if this direction is near an axis and there is one. Returns the size from which on rays do without. */
-static double find_glory(struct direction *d, const struct branch *b, int side, int turns, const struct ray *r, struct plus_rays *out, int *failed)
+/* The other ray of a glory, if this direction is near an axis and there is one. Returns the size from which rays do without. */
+static double find_glory(struct direction *d, const struct branch *b, int side, int turns, const struct ray *r,
+			 struct plus_rays *out, int *failed)
 {
 	double rest = 180 - d->theta, front = d->theta < 90, near = fmin(d->theta, rest) * (M_PI / 180);
 	int own = front == d->p % 2;    /* the axis of the central ray */
@@ -200,7 +204,8 @@ static int gather(struct direction *d, struct plus_rays *out)
 			/* zeta x^(2/3) is about |tau - tau_R| over the width of the Airy function, which is off by 2 at most */
 			if (branches > 1 && tau < paired && fabs(tau - d->caustic.tau) < wide) {
 				/* the phase is that of the inner ray without its sgn term, here as on the bright side */
-				int sigma = d->p % 2 ? side : -side, whole = d->p % 2 ? turns + (d->p - 1) / 2 : turns - (sigma - d->p + 1) / 2;
+				int sigma = d->p % 2 ? side : -side;
+				int whole = d->p % 2 ? turns + (d->p - 1) / 2 : turns - (sigma - d->p + 1) / 2;
 				if (grow(&out->rainbow, out->rainbows, sizeof *out->rainbow))
 					return -1;
 				struct plus_rainbow *pair = &out->rainbow[out->rainbows++];

@@ -1,7 +1,7 @@
 /* plus_rays - the rays of goa_plus: what depends on the index and the angles, not on size.
  *
- * Away from caustics a ray comes with its second-order terms; near a rainbow two rays make one Airy pair, near a glory (an axis reached
- * off-centre) one Bessel pair. Which serves depends on size: rays from `from' on, pairs below `below'. */
+ * Away from caustics a ray comes with its second-order terms; near a rainbow two rays make one Airy pair, near a glory (an axis
+ * reached off-centre) one Bessel pair. Which serves depends on size: rays from `from' on, pairs below `below'. */
 #ifndef OPTICS_PLUS_RAYS_H
 #define OPTICS_PLUS_RAYS_H
 
@@ -36,7 +36,8 @@ struct plus_rainbow {
 struct plus_glory {
 	int angle, p, back;
 	double below, path, z, u;
-	double complex even[2], odd[2];        /* of (S1+S2)/2 and (S1-S2)/2: rays turned one way and the other, added and subtracted, in x^(3/2) */
+	/* of (S1+S2)/2 and (S1-S2)/2, in x^(3/2): rays turned one way and the other, added and subtracted */
+	double complex even[2], odd[2];
 	double fade;
 };
 
@@ -51,7 +52,8 @@ struct plus_rays {
 	struct plus_glory *glory;
 };
 
-/* plus_rays_find - for angles theta[n], degrees in [0, 180]. Returns 0, or -1 when memory ran out (there is nothing to free then). */
+/* plus_rays_find - for angles theta[n], degrees in [0, 180]. Returns 0, or -1 when memory ran out
+ * (there is nothing to free then). */
 int plus_rays_find(double complex m, int n, const double *theta, struct plus_rays *out);
 void plus_rays_free(struct plus_rays *r);
 

@@ -130,7 +130,8 @@ static struct direction direction(int p, double theta)
 }
 
 /* The ray of a branch with tau = side from_axis + 2 pi turns, if there is one. */
-static int one_ray(double n, int p, const struct caustic *c, const struct branch *b, const struct direction *d, int side, int turns, struct ray *r)
+static int one_ray(double n, int p, const struct caustic *c, const struct branch *b, const struct direction *d, int side,
+		   int turns, struct ray *r)
 {
 	double tau = side * d->from_axis + 2 * M_PI * turns;
 	if (tau < fmin(b->from, b->to) || tau > fmax(b->from, b->to) || (b->central && tau == 0 && side != b->sign))
@@ -166,7 +167,8 @@ int rays_find(double n, int p, const struct caustic *c, double theta, struct ray
 	for (int b = 0, branches = rays_branches(n, p, c, branch); b < branches; b++) {
 		double least = fmin(branch[b].from, branch[b].to), most = fmax(branch[b].from, branch[b].to);
 		for (int side = -1; side <= 1; side += 2)
-			for (int turns = (int)ceil((least - side * d.from_axis) / (2 * M_PI) - 1e-9); side * d.from_axis + 2 * M_PI * turns <= most; turns++)
+			for (int turns = (int)ceil((least - side * d.from_axis) / (2 * M_PI) - 1e-9);
+			     side * d.from_axis + 2 * M_PI * turns <= most; turns++)
 				k += one_ray(n, p, c, &branch[b], &d, side, turns, &out[k]);
 	}
 	return k;

@@ -51,8 +51,8 @@ struct branch {
 /* rays_branches - those of order p >= 2; returns how many. */
 int rays_branches(double n, int p, const struct caustic *c, struct branch out[2]);
 
-/* rays_at - the ray of a branch with tau = side from_axis + 2 pi turns, from_axis the angle between theta (degrees) and the axis of
- * the central ray; returns whether there is one. On the axis the central ray has but one side. */
+/* rays_at - the ray of a branch with tau = side from_axis + 2 pi turns, from_axis the angle between theta (degrees) and the axis
+ * of the central ray; returns whether there is one. On the axis the central ray has but one side. */
 int rays_at(double n, int p, const struct caustic *c, const struct branch *b, double theta, int side, int turns, struct ray *r);
 
 #endif

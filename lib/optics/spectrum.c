@@ -78,7 +78,8 @@ int spectrum_set(struct spectrum *s, int n, const double *const coefficient[SPEC
 	}
 	s->size = size;
 	double *room = s->room;
-	double *turn = room + rows * ROW, *kernel = turn + size, *a = s->memory + (size_t)edge * ROW, *b = room + (size_t)edge * ROW;
+	double *turn = room + rows * ROW, *kernel = turn + size, *a = s->memory + (size_t)edge * ROW;
+	double *b = room + (size_t)edge * ROW;
 	transform_of_kernel(size, n / 2 + 1, kernel);
 	/* e^(2 pi i p/size) by quarters of the circle */
 	for (int p = 0; p < size / 2; p++) {
