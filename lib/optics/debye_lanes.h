@@ -17,7 +17,7 @@
 
 #define DEBYE_WIDTH 8
 
-/* What a real argument z (outside x, inside m x) gives at DEBYE_WIDTH neighbouring waves away from its turning point:
+/* What a real argument z (outside x, inside m x) gives at DEBYE_WIDTH waves away from its turning point:
  * xi'/xi = i c - k, and e^(2 i phase) of xi. */
 struct debye_phase {
 	double c[DEBYE_WIDTH], k[DEBYE_WIDTH], cosine[DEBYE_WIDTH], sine[DEBYE_WIDTH];
@@ -74,11 +74,11 @@ static void langer_complex(double complex z, double complex *zeta, double comple
 	*q = 4 * *zeta / ((1 - z) * (1 + z));
 }
 
-static void debye_phases(double lambda0, double z, struct debye_phase *out)
+static void debye_phases(const double lambda_of[DEBYE_WIDTH], double z, struct debye_phase *out)
 {
 #pragma omp simd
 	for (int i = 0; i < DEBYE_WIDTH; i++) {
-		double lambda = lambda0 + i, s2 = (z - lambda) * (z + lambda);
+		double lambda = lambda_of[i], s2 = (z - lambda) * (z + lambda);
 		s2 = lane_select(s2, 1e-300, 1e-300, s2);      /* beyond the turning point others serve */
 		double s = sqrt(s2), phase = s - lambda * lane_atan2(s, lambda) - (3 + 5 * lambda * lambda / s2) / (24 * s);
 		out->c[i] = s / z;

@@ -143,6 +143,8 @@ static void plus(const struct plus_packet *k, size_t n, const struct edge *e, do
 {
 	for (const struct plus_packet *end = k + n; k < end; k++) {
 		const struct window *w = &e->window[k->p];
+		if (e->x * k->clearest > PLUS_ABSORBED)
+			continue;
 		double all = window_constant(w, k->least, k->most);
 		if (all == 0)
 			plus_free(k, e->x, s);
@@ -327,12 +329,14 @@ static double coefficients(const struct edge *e, const struct window *only, stru
 	double x = e->x, lost = 0;
 	const struct debye_bounds bounds = debye_bounds(x, e->m);
 	for (int k0 = 0; k0 < strip->n; k0 += DEBYE_WIDTH) {
-		double lambda0 = strip->first + k0 + 0.5;
+		double lambda_of[DEBYE_WIDTH];
 		struct debye_phase outside, inside;
-		debye_phases(lambda0, x, &outside);
-		debye_phases(lambda0, x * creal(e->m), &inside);
+		for (int i = 0; i < DEBYE_WIDTH; i++)
+			lambda_of[i] = strip->first + k0 + i + 0.5;
+		debye_phases(lambda_of, x, &outside);
+		debye_phases(lambda_of, x * creal(e->m), &inside);
 		for (int i = 0, k = k0; i < DEBYE_WIDTH && k < strip->n; i++, k++) {
-			double lambda = lambda0 + i, u = lambda / x, w[EDGE_ORDERS + 2], rest;
+			double lambda = lambda_of[i], u = lambda / x, w[EDGE_ORDERS + 2], rest;
 			struct debye d;
 			double complex s[2];
 			int beyond = strip->first + k > e->disc;
@@ -343,7 +347,7 @@ static double coefficients(const struct edge *e, const struct window *only, stru
 			for (int j = 0; j < 2; j++) {
 				/* all p >= 1 in closed form with the last one's share, and what the others have more */
 				double complex part = d.t[j], rays = rest * part / (1 - d.i[j]);
-				for (int p = 1; p <= EDGE_ORDERS && fabs(creal(part)) + fabs(cimag(part)) > 1e-8;
+				for (int p = 1; p <= EDGE_ORDERS && fabs(creal(part)) + fabs(cimag(part)) > 1e-6;
 				     p++, part *= d.i[j])
 					rays += (w[p] - rest) * part;
 				s[j] = -(w[0] * (d.r[j] - beyond) + rays) / 2;
@@ -391,23 +395,27 @@ static double absorption(const struct edge *e)
 			at[j] = at[j - 1];
 			at[j - 1] = swap;
 		}
-	for (int k = 0; k + 1 < panels; k++)
-		for (int i = 0; i < 8; i++) {
-			double half = (at[k + 1] - at[k]) / 2;
-			double u = (at[k] + at[k + 1]) / 2 + half * (i < 4 ? -node[3 - i] : node[i - 4]);
+	for (int k = 0; k + 1 < panels; k++) {
+		double half = (at[k + 1] - at[k]) / 2, lambda[DEBYE_WIDTH];
+		struct debye_phase outside, inside;
+		for (int i = 0; i < DEBYE_WIDTH; i++)
+			lambda[i] = x * ((at[k] + at[k + 1]) / 2 + half * (i < 4 ? -node[3 - i] : node[i - 4]));
+		debye_phases(lambda, x, &outside);
+		debye_phases(lambda, x * n, &inside);
+		for (int i = 0; i < DEBYE_WIDTH; i++) {
 			struct debye d;
-			struct debye_phase outside, inside;
-			if (u <= 0 || u > 1 + 8 * s)
+			double sum = 0;
+			if (lambda[i] <= 0 || lambda[i] > x * (1 + 8 * s))
 				continue;
-			debye_phases(x * u, x, &outside);
-			debye_phases(x * u, x * n, &inside);
-			debye_term(x, e->m, &bounds, x * u, 0, &outside, &inside, &d);
+			debye_term(x, e->m, &bounds, lambda[i], i, &outside, &inside, &d);
 			for (int j = 0; j < 2; j++) {
 				double r = creal(d.r[j] * conj(d.r[j])), t = creal(d.t[j] * conj(d.t[j]));
 				double in = creal(d.i[j] * conj(d.i[j]));
-				q += half * (i < 4 ? weight[3 - i] : weight[i - 4]) * u * (1 - r - (t > 0 ? t / (1 - in) : 0));
+				sum += 1 - r - (t > 0 ? t / (1 - in) : 0);
 			}
+			q += half * (i < 4 ? weight[3 - i] : weight[i - 4]) * lambda[i] / x * sum;
 		}
+	}
 	return fmax(q, 0);
 }
 

@@ -12,7 +12,7 @@ static double share(const struct edge *e, int p, double u)
 static void add_rainbow(const struct plus_rainbow *r, const struct edge *e, double complex *s1, double complex *s2)
 {
 	double x = e->x, third = cbrt(x), wa = share(e, r->p, r->ua), wb = share(e, r->p, r->ub);
-	if (wa == 0 && wb == 0)
+	if ((wa == 0 && wb == 0) || fmax(creal(r->fade_a), creal(r->fade_b)) * x < -PLUS_ABSORBED)
 		return;
 	struct airy airy = airy_real(-third * third * r->zeta);
 	double complex fa = wa, fb = wb, common = cexp(I * x * r->path);
@@ -29,7 +29,7 @@ static void add_rainbow(const struct plus_rainbow *r, const struct edge *e, doub
 static void add_glory(const struct plus_glory *g, const struct edge *e, double complex *s1, double complex *s2)
 {
 	double x = e->x, w = share(e, g->p, g->u), z = x * g->z;
-	if (w == 0)
+	if (w == 0 || g->fade * x > PLUS_ABSORBED)
 		return;
 	double b0 = j0(z), b1 = j1(z), b2 = z > 1e-3 ? 2 * b1 / z - b0 : z * z / 8, slope = z > 1e-3 ? b1 - 2 * b2 / z : z / 4;
 	double complex common = w * x * sqrt(x) * exp(-x * g->fade) * cexp(I * x * g->path);

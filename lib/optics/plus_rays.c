@@ -294,12 +294,13 @@ int plus_rays_find(double complex m, int n, const double *theta, struct plus_ray
 				struct plus_packet *k = &out->packet[used++];
 				memset(k, 0, sizeof *k);
 				k->p = p;
-				k->least = INFINITY;
+				k->least = k->clearest = INFINITY;
 				for (int lane = 0; lane < lanes; lane++)
 					if (i < d[lane].n) {
 						put(k, lane, &d[lane], i);
 						k->least = fmin(k->least, k->u[lane]);
 						k->most = fmax(k->most, k->u[lane]);
+						k->clearest = fmin(k->clearest, k->fade[lane]);
 					}
 			}
 		}

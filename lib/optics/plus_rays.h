@@ -10,6 +10,7 @@
 #include <stddef.h>
 
 #define PLUS_WIDTH 8
+#define PLUS_ABSORBED 25    /* e^-25 of a ray is nothing */
 
 /* Rays of one order at PLUS_WIDTH neighbouring angles; where an angle has none, f, g, h are 0. Phase: x path + quarters, in pi/2.
  * Amplitude: -x spread, at most x^2/2, times what order.h says, g being held where it outgrows f: 1/x is x/(x^2 + hold).
@@ -19,6 +20,7 @@ struct plus_packet {
 	double u[PLUS_WIDTH], e[PLUS_WIDTH], spread[PLUS_WIDTH], hold[PLUS_WIDTH];
 	double f[4][PLUS_WIDTH], g[4][PLUS_WIDTH], h[4][PLUS_WIDTH];
 	double least, most;        /* u */
+	double clearest;           /* least fade */
 	int p, fades;              /* fades: any of these is absorbed */
 };
 
