@@ -1,5 +1,6 @@
 /* Whatever one asks, the answer is a number: random sizes, indices and angles, with the caustics and axes among them. */
 #include "optics/goa.h"
+#include "optics/goa_plus.h"
 #include "optics/rays.h"
 
 #include "tap.h"
@@ -7,6 +8,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 static double uniform(void)
 {
@@ -48,9 +50,47 @@ static double angle(double n)
 	return t;
 }
 
-int main(void)
+/* Phase functions of GOA+ and of the incoherent sum at n angles of so many spheres: numbers, and not negative. */
+static void phase_functions(int spheres)
 {
-	plan(9);
+	enum { EACH = 10 };
+	int bad = 0, large = 0;
+	for (int k = 0; k < spheres; k++) {
+		double x = pow(10, -2 + 8 * uniform()), n = index_re(), theta[EACH], i1[EACH], i2[EACH], norm;
+		double complex m = uniform() < 0.5 ? n : n + I * pow(10, -12 + 13 * uniform()), s1[EACH], s2[EACH];
+		struct efficiencies q;
+		for (int i = 0; i < EACH; i++)
+			theta[i] = angle(n);
+		struct goa_plus *plus = goa_plus_new(m);
+		struct goa *goa = goa_new(m, (int)(uniform() * 5));
+		int failed = !plus || !goa || goa_plus_aim(plus, EACH, theta) || goa_plus_at(plus, x, s1, s2, &q) ||
+			     goa_aim(goa, EACH, theta) || goa_incoherent(goa, x, i1, i2, &norm);
+		int wrong = failed || !(q.sca > 0) || !isfinite(q.sca) || !isfinite(q.back) || !(norm > 0) || !isfinite(norm);
+		for (int i = 0; !failed && i < EACH; i++) {
+			double p = (creal(s1[i] * conj(s1[i])) + creal(s2[i] * conj(s2[i]))) / (2 * M_PI * x * x * q.sca);
+			double apart = (i1[i] + i2[i]) / (2 * norm);
+			wrong += !(p >= 0) || isinf(p) || !(apart >= 0) || isinf(apart);
+			int beyond = cabs(s1[i]) > 10 * x * x + 10 * x || i1[i] > 100 * (x * x + x) * (x * x + x);
+			large += beyond;
+			if (beyond)
+				printf("# x = %a, m = %a%+ai, theta = %a: %g, %g\n", x, creal(m), cimag(m), theta[i], cabs(s1[i]),
+				       sqrt(i1[i]));
+		}
+		if (wrong)
+			printf("# x = %a, m = %a%+ai: sca %g, norm %g\n", x, creal(m), cimag(m), q.sca, norm);
+		bad += wrong;
+		goa_plus_free(plus);
+		goa_free(goa);
+	}
+	ok(!bad, "GOA+ and incoherent at %d angles: %d not numbers, or negative", EACH * spheres, bad);
+	ok(!large, "%d larger than any disc of that size diffracts", large);
+}
+
+/* With an argument, so many spheres for GOA+ (10 angles each). */
+int main(int argc, char **argv)
+{
+	plan(11);
+	phase_functions(argc > 1 ? atoi(argv[1]) : 600);
 	enum { EACH = 10 };
 	int bad = 0, large = 0;
 	for (int k = 0; k < 10000; k++) {

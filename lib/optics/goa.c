@@ -1,16 +1,15 @@
 #include "optics/goa.h"
 
-#include "base/cmplx.h"
-#include "optics/rays.h"
+#include "optics/goa_norm.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define NODES 8        /* nodes of a panel's quadrature */
-#define CHUNK 4096    /* angles of goa_amplitudes whose rays are held at once */
-#define GLORY 4       /* highest order looked at for forward glories */
-#define GRIDS 16      /* sizes up to 2^0 .. beyond 2^14 */
+#define PANELS 24      /* of the quadrature of absorption, on either side of the critical angle */
+#define GLORY 4        /* highest order looked at for forward glories */
+#define GRIDS 26       /* sizes up to 2^0 .. 2^25 */
+#define CHUNK 4096     /* angles of goa_amplitudes whose rays are held at once */
 
 /* Gauss-Legendre on [-1, 1], Abramowitz and Stegun table 25.4. */
 static const double node[NODES] = { -0.9602898564975363, -0.7966664774136267, -0.5255324099163290, -0.1834346424956498,
@@ -18,259 +17,83 @@ static const double node[NODES] = { -0.9602898564975363, -0.7966664774136267, -0
 static const double weight[NODES] = { 0.1012285362903763, 0.2223810344533745, 0.3137066458778873, 0.3626837833783620,
 	0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763 };
 
-/* A ray and what does not depend on size: its amplitude is -x sqrt(D) f exp(i x path). */
-struct beam {
-	double complex f1, f2;       /* F_j with the constant phase */
-	double complex path;         /* of p chords, less the way saved outside: p m 2 cos t - 2 cos i where m is real */
-	struct ray ray;
-};
-
-struct beams {
-	int n;                       /* angles */
-	double *theta;               /* degrees */
-	size_t *first;               /* first beam of each angle, n + 1 of them */
-	struct beam *beam;
+/* Where light may enter an absorbing sphere: a node of a quadrature over the impact parameter. */
+struct entry {
+	double weight, reflected[2], chord;      /* s ds; |R_j|^2; attenuation along a chord, infinite where none leads on */
 };
 
 struct goa {
 	double complex m;
 	int order;
+	const struct goa_lanes *lanes;
 	struct caustic caustic[GOA_ORDER_MAX + 1];
-	struct beams asked;
-	struct beams front, back;    /* the axes; the front one up to GLORY, for the estimate of errors */
-	struct beams grid[GRIDS];    /* for the norm, by size */
-	double *weight[GRIDS];       /* with 2 pi sin theta */
+	struct goa_rays asked, back;
+	struct goa_beam *front;         /* forward up to GLORY, for the estimate of errors */
+	int fronts;
+	struct entry entry[2 * PANELS * NODES];
+	int entries;                    /* 0: does not absorb */
+	struct goa_grid grid[GRIDS];    /* for the norm, by size */
 };
 
-/* Fresnel amplitudes R_1 (perpendicular), R_2 (parallel). c_t = sqrt(1 - sin^2 i/m^2), Im c_t >= 0. */
-static void fresnel(double complex m, double sin_i, double cos_i, double complex *r1, double complex *r2)
-{
-	double complex ct;
-	if (cimag(m) == 0) {
-		double n = creal(m), q2 = (n - 1) * (n + 1) + cos_i * cos_i;
-		ct = q2 >= 0 ? sqrt(q2) / n : CMPLX(0, sqrt(-q2) / n);
-	} else {
-		ct = csqrt((m * m - sin_i * sin_i) / (m * m));
-		ct = CMPLX(creal(ct), fabs(cimag(ct)));    /* rounding may have put 1 + i0 below the cut */
-	}
-	*r1 = (cos_i - m * ct) / (cos_i + m * ct);
-	*r2 = (m * cos_i - ct) / (m * cos_i + ct);
-}
-
-/* Phase path of one chord over x: 2 [sqrt(m^2 - s^2) - s (arccos(s/m) - arccos(s/n))], s = sin i; 2 n cos t for real m.
- * It keeps the ray of the real index and is exact to first order beyond it (physics of appendix C, improved). */
-static double complex chord(double complex m, const struct ray *r)
-{
-	if (cimag(m) == 0)
-		return 2 * r->q;
-	double n = creal(m), s = r->sin_i;
-	double complex root = csqrt(m * m - s * s), bend = s * (cacos(s / m) - acos(fmin(s / n, 1)));
-	double complex path = 2 * (root - bend);
-	return CMPLX(creal(path), fmax(cimag(path), 0));
-}
-
-static int trace(double complex m, int order, const struct caustic *caustic, double theta, struct beam *out)
-{
-	static const double complex eighth[8] = { 1, CMPLX(M_SQRT1_2, M_SQRT1_2), I, CMPLX(-M_SQRT1_2, M_SQRT1_2),
-		-1, CMPLX(-M_SQRT1_2, -M_SQRT1_2), -I, CMPLX(M_SQRT1_2, -M_SQRT1_2) };
-	struct ray ray[RAYS_MAX(GOA_ORDER_MAX)];
-	int n = 0;
-	for (int p = 0; p <= order; p++) {
-		int rays = rays_find(creal(m), p, &caustic[p], theta, ray);
-		for (int k = 0; k < rays; k++) {
-			const struct ray *r = &ray[k];
-			struct beam *b = &out[n];
-			double complex r1, r2;
-			fresnel(m, r->sin_i, r->cos_i, &r1, &r2);
-			double complex f1 = p ? 1 - r1 * r1 : r1, f2 = p ? 1 - r2 * r2 : r2;
-			for (int i = 1; i < p; i++) {
-				f1 *= -r1;
-				f2 *= -r2;
-			}
-			if (cabs(f1) + cabs(f2) < 1e-18)    /* nothing, whatever the size; of 100 orders most */
-				continue;
-			b->f1 = f1 * eighth[r->eighths];
-			b->f2 = f2 * eighth[r->eighths];
-			b->path = (p ? p * chord(m, r) : 0) - 2 * r->cos_i;
-			b->ray = *r;
-			n++;
-		}
-	}
-	return n;
-}
-
-static void beams_free(struct beams *b)
-{
-	free(b->theta);
-	free(b->first);
-	free(b->beam);
-	memset(b, 0, sizeof *b);
-}
-
-static int beams_find(const struct goa *g, int order, int n, const double *theta, struct beams *b)
-{
-	size_t room = 0, used = 0, most = 0;
-	for (int p = 0; p <= order; p++)
-		most += RAYS_MAX(p);
-	memset(b, 0, sizeof *b);
-	b->n = n;
-	b->theta = malloc((n ? (size_t)n : 1) * sizeof *b->theta);
-	b->first = malloc(((size_t)n + 1) * sizeof *b->first);
-	if (!b->theta || !b->first)
-		goto no_memory;
-	for (int k = 0; k < n; k++) {
-		b->theta[k] = theta[k];
-		b->first[k] = used;
-		if (used + most > room) {
-			room = 2 * room + most;
-			struct beam *more = realloc(b->beam, room * sizeof *more);
-			if (!more)
-				goto no_memory;
-			b->beam = more;
-		}
-		used += (size_t)trace(g->m, order, g->caustic, theta[k], b->beam + used);
-	}
-	b->first[n] = used;
-	return 0;
-no_memory:
-	beams_free(b);
-	return -1;
-}
-
-/* What the caps of goa.h allow at size x, for one order. */
-struct cap {
-	double rainbow;       /* dT */
-	double slope;         /* least |Theta'| */
-};
-
-static void caps(const struct goa *g, double x, struct cap *cap)
+static void caps(const struct goa *g, double x, struct goa_cap *cap)
 {
 	for (int p = 1; p <= g->order || p <= GLORY; p++) {
 		const struct caustic *c = &g->caustic[p];
 		double u = x * cos(c->incidence);
 		cap[p].rainbow = isnan(c->tau) ? 0 : cbrt(c->bend / (2 * u * u));
 		cap[p].slope = fmax(0.4607 * sqrt(c->third / x), 2 / x);
+		cap[p].bend = c->bend;
 	}
 }
 
-/* sqrt(D), D = sin i cos i / (sin theta |Theta'|). */
-static double spread(double x, const struct ray *r, const struct cap *cap, const struct caustic *c)
+static void amplitudes(const struct goa *g, const struct goa_rays *r, double x, double complex *s1, double complex *s2)
 {
-	if (r->p == 0)
-		return 0.5;
-	double slope = r->slope, ratio = r->ratio, dt = cap[r->p].rainbow, least = cap[r->p].slope;
-	if (r->gap < dt)
-		slope = r->gap > 1e-10 * dt ? slope * sqrt(dt / r->gap) : sqrt(2 * c[r->p].bend * dt);
-	slope = fmax(slope, least);
-	double most = r->axial ? 1 / least : fmax(1 / least, x * r->sin_i * r->sin_i);
-	return sqrt(fmin(ratio, most) * r->cos_i / slope);
-}
-
-/* J1(x sin theta)/(x sin theta) x^2 in the forward half. */
-static double diffraction(double x, double theta)
-{
-	if (theta >= 90)
-		return 0;
-	double z = x * sin(theta * (M_PI / 180));
-	return z < 1e-4 ? x * x * (0.5 - z * z / 16) : x * x * j1(z) / z;
-}
-
-static void amplitudes(const struct goa *g, const struct beams *b, double x, double complex *s1, double complex *s2)
-{
-	struct cap cap[GOA_ORDER_MAX + 1];
+	struct goa_cap cap[GOA_ORDER_MAX + 1];
 	caps(g, x, cap);
-	for (int k = 0; k < b->n; k++) {
-		double complex sum1 = 0, sum2 = 0;
-		for (size_t i = b->first[k]; i < b->first[k + 1]; i++) {
-			const struct beam *beam = &b->beam[i];
-			double phase = x * creal(beam->path), fade = x * cimag(beam->path), sine, cosine;
-			double size = x * spread(x, &beam->ray, cap, g->caustic);
-			if (fade > 0)
-				size *= exp(-fade);
-			sincos(phase, &sine, &cosine);
-			double complex wave = CMPLX(size * cosine, size * sine);
-			sum1 -= wave * beam->f1;
-			sum2 -= wave * beam->f2;
+	for (int b = 0, from = 0; from < r->n; b++, from += GOA_WIDTH) {
+		double s[4][GOA_WIDTH] = { { 0 } }, d[GOA_WIDTH];
+		g->lanes->coherent(&r->packet[r->first[b]], r->first[b + 1] - r->first[b], x, cap, s);
+		g->lanes->diffraction(&r->angles[b], x, d);
+		for (int i = 0; i < GOA_WIDTH && from + i < r->n; i++) {
+			s1[from + i] = CMPLX(s[0][i] + d[i], s[1][i]);
+			s2[from + i] = CMPLX(s[2][i] + d[i], s[3][i]);
 		}
-		double d = diffraction(x, b->theta[k]);
-		s1[k] = sum1 + d;
-		s2[k] = sum2 + d;
 	}
 }
 
-/* How strongly nodes must crowd towards the axis: b with (pi/2) b/sinh(b) = step * half, the width of the first of half panels. */
-static double crowding(double step, int half)
-{
-	double lo = 0, hi = 40, want = step * half / (M_PI / 2);
-	if (want >= 1)
-		return 0;
-	for (int k = 0; k < 60; k++) {
-		double b = (lo + hi) / 2;
-		if (b / sinh(b) > want)
-			lo = b;
-		else
-			hi = b;
-	}
-	return lo;
-}
-
-/* Angles and weights that integrate |S|^2 for sizes up to x: panels 5/x wide, in which the fastest interference turns by 10 rad.
- * Beyond x = 6000 that would be too many; panels then widen away from the axes, and interference far from them is sampled
- * rather than resolved. */
-static int grid_new(struct goa *g, double x, struct beams *b, double **weights)
-{
-	int half = (int)fmin(fmax(ceil(M_PI / 2 * x / 5), 64), 2048), n = 2 * half * NODES;
-	double crowd = crowding(5 / x, half), *theta = malloc((size_t)n * sizeof *theta), *w = malloc((size_t)n * sizeof *w);
-	if (!theta || !w)
-		goto no_memory;
-	for (int k = 0; k < half; k++) {
-		double at[2];
-		for (int e = 0; e < 2; e++) {
-			double u = (double)(k + e) / half;
-			at[e] = 90 * (crowd > 0 ? sinh(crowd * u) / sinh(crowd) : u);
-		}
-		for (int j = 0; j < NODES; j++) {
-			double t = (at[0] + at[1]) / 2 + node[j] * (at[1] - at[0]) / 2;
-			int i = k * NODES + j, mirror = n - 1 - i;
-			theta[i] = t;
-			theta[mirror] = 180 - t;
-			w[i] = w[mirror] = 2 * M_PI * sin(t * (M_PI / 180)) * weight[j] * (at[1] - at[0]) / 2 * (M_PI / 180);
-		}
-	}
-	if (beams_find(g, g->order, n, theta, b))
-		goto no_memory;
-	free(theta);
-	*weights = w;
-	return 0;
-no_memory:
-	free(theta);
-	free(w);
-	return -1;
-}
-
-/* Integrals over the sphere of (|S1|^2 + |S2|^2)/2, and of the same times cos theta. */
-static int integrals(struct goa *g, double x, double *all, double *along)
+/* goa_grid_sum, negative when memory ran out. */
+static double integral(struct goa *g, int interfere, double x, double *along)
 {
 	int level = (int)fmin(fmax(ceil(log2(x)), 0), GRIDS - 1);
-	struct beams *b = &g->grid[level];
-	if (level == GRIDS - 1)    /* made for each size */
-		beams_free(b), free(g->weight[level]), g->weight[level] = NULL;
-	if (!b->n && grid_new(g, level == GRIDS - 1 ? x : ldexp(1, level), b, &g->weight[level]))
+	struct goa_grid *grid = &g->grid[level];
+	struct goa_cap cap[GOA_ORDER_MAX + 1];
+	if (!grid->rays.n && goa_grid_new(g->m, g->order, g->caustic, ldexp(1, level), grid))
 		return -1;
-	double complex *s1 = malloc((size_t)b->n * sizeof *s1), *s2 = malloc((size_t)b->n * sizeof *s2);
-	*all = *along = 0;
-	if (s1 && s2) {
-		amplitudes(g, b, x, s1, s2);
-		for (int k = 0; k < b->n; k++) {
-			double a = cabs(s1[k]), c = cabs(s2[k]), v = g->weight[level][k] * (a * a + c * c) / 2;
-			*all += v;
-			*along += v * cos(b->theta[k] * (M_PI / 180));
+	caps(g, x, cap);
+	return goa_grid_sum(g->lanes, grid, interfere, x, cap, along);
+}
+
+/* The quadrature of absorption, in the angle of incidence. */
+static int enter(double complex m, struct entry *out)
+{
+	double n = creal(m), edge = n < 1 ? asin(n) : M_PI / 2;
+	int k = 0;
+	for (int panel = 0; panel < 2 * PANELS; panel++) {
+		int inside = panel < PANELS;
+		double width = (inside ? edge : M_PI / 2 - edge) / PANELS;
+		double lo = inside ? width * panel : edge + width * (panel - PANELS);
+		if (width == 0)
+			break;
+		for (int j = 0; j < NODES; j++) {
+			double i = lo + width * (1 + node[j]) / 2, s = sin(i), c = cos(i);
+			struct ray r = { .sin_i = s, .cos_i = c };
+			double complex r1, r2;
+			goa_fresnel(m, s, c, &r1, &r2);
+			out[k++] = (struct entry){ weight[j] * width / 2 * s * c, { creal(r1 * conj(r1)), creal(r2 * conj(r2)) },
+			                           inside ? cimag(goa_chord(m, &r)) : INFINITY };
 		}
 	}
-	int status = s1 && s2 ? 0 : -1;
-	free(s1);
-	free(s2);
-	return status;
+	return k;
 }
 
 struct goa *goa_new(double complex m, int order)
@@ -280,10 +103,15 @@ struct goa *goa_new(double complex m, int order)
 		return NULL;
 	g->m = m;
 	g->order = order;
-	for (int p = 0; p <= order || p <= GLORY; p++)
+	g->lanes = goa_lanes();
+	g->entries = cimag(m) == 0 ? 0 : enter(m, g->entry);
+	int most = order > GLORY ? order : GLORY;
+	for (int p = 0; p <= most; p++)
 		g->caustic[p] = rays_caustic(creal(m), p);
-	if (!beams_find(g, order > GLORY ? order : GLORY, 1, (double[]){ 0 }, &g->front) &&
-	    !beams_find(g, order, 1, (double[]){ 180 }, &g->back))
+	g->front = malloc((size_t)((most + 1) * (most + 8)) * sizeof *g->front);    /* the sum of RAYS_MAX */
+	if (g->front)
+		g->fronts = goa_trace(m, most, g->caustic, 0, g->front);
+	if (g->front && g->lanes && !goa_rays_find(m, order, g->caustic, 1, (double[]){ 180 }, &g->back))
 		return g;
 	goa_free(g);
 	return NULL;
@@ -293,13 +121,11 @@ void goa_free(struct goa *g)
 {
 	if (!g)
 		return;
-	beams_free(&g->asked);
-	beams_free(&g->front);
-	beams_free(&g->back);
-	for (int k = 0; k < GRIDS; k++) {
-		beams_free(&g->grid[k]);
-		free(g->weight[k]);
-	}
+	free(g->front);
+	goa_rays_free(&g->asked);
+	goa_rays_free(&g->back);
+	for (int k = 0; k < GRIDS; k++)
+		goa_grid_free(&g->grid[k]);
 	free(g);
 }
 
@@ -307,13 +133,34 @@ int goa_aim(struct goa *g, int n, const double *theta)
 {
 	if (n && n == g->asked.n && !memcmp(theta, g->asked.theta, (size_t)n * sizeof *theta))
 		return 0;
-	beams_free(&g->asked);
-	return beams_find(g, g->order, n, theta, &g->asked);
+	goa_rays_free(&g->asked);
+	return goa_rays_find(g->m, g->order, g->caustic, n, theta, &g->asked);
 }
 
 void goa_at(const struct goa *g, double x, double complex *s1, double complex *s2)
 {
 	amplitudes(g, &g->asked, x, s1, s2);
+}
+
+int goa_incoherent(struct goa *g, double x, double *i1, double *i2, double *norm)
+{
+	struct goa_cap cap[GOA_ORDER_MAX + 1];
+	const struct goa_rays *r = &g->asked;
+	double along;
+	*norm = integral(g, 0, x, &along);
+	if (*norm < 0)
+		return -1;
+	caps(g, x, cap);
+	for (int b = 0, from = 0; from < r->n; b++, from += GOA_WIDTH) {
+		double s[2][GOA_WIDTH] = { { 0 } }, d[GOA_WIDTH];
+		g->lanes->incoherent(&r->packet[r->first[b]], r->first[b + 1] - r->first[b], x, cap, s);
+		g->lanes->diffraction(&r->angles[b], x, d);
+		for (int i = 0; i < GOA_WIDTH && from + i < r->n; i++) {
+			i1[from + i] = s[0][i] + d[i] * d[i];
+			i2[from + i] = s[1][i] + d[i] * d[i];
+		}
+	}
+	return 0;
 }
 
 int goa_amplitudes(double x, double complex m, int order, int n, const double *theta, double complex *s1, double complex *s2)
@@ -331,10 +178,8 @@ int goa_amplitudes(double x, double complex m, int order, int n, const double *t
 
 double goa_norm(double x, double complex m, int order)
 {
-	double norm = -1, along;
 	struct goa *g = goa_new(m, order);
-	if (!g || integrals(g, x, &norm, &along))
-		norm = -1;
+	double along, norm = g ? integral(g, 1, x, &along) : -1;
 	goa_free(g);
 	return norm;
 }
@@ -342,13 +187,14 @@ double goa_norm(double x, double complex m, int order)
 /* Rays bent round to the forward axis off-centre (a forward glory): what eq 12 leaves out of extinction, in the mean ~ x^(-1/2). */
 static double glory(const struct goa *g, double x)
 {
-	struct cap cap[GOA_ORDER_MAX + 1];
+	struct goa_cap cap[GOA_ORDER_MAX + 1];
 	double sum = 0;
 	caps(g, x, cap);
-	for (size_t i = 0; i < g->front.first[1]; i++) {
-		const struct beam *b = &g->front.beam[i];
+	for (int i = 0; i < g->fronts; i++) {
+		const struct goa_beam *b = &g->front[i];
 		if (!b->ray.axial)
-			sum += 2 / x * spread(x, &b->ray, cap, g->caustic) * (cabs(b->f1) + cabs(b->f2)) * exp(-x * cimag(b->path));
+			sum += 2 / x * goa_spread(x, &b->ray, &cap[b->ray.p]) * (cabs(b->f1) + cabs(b->f2)) *
+			       exp(-x * cimag(b->path));
 	}
 	return sum;
 }
@@ -377,30 +223,16 @@ static double extinction(const struct goa *g, double x, double *missing)
 
 /* Absorption: of the energy that enters at each impact parameter s = sin i the part lost along all chords,
  *     Q = int_0^1 2 s ds (1/2) sum_j (1 - |R_j|^2) (1 - e^-a) / (1 - |R_j|^2 e^-a),  a = 2 x Im(chord). */
-static double absorption(double complex m, double x)
+static double absorption(const struct goa *g, double x)
 {
-	enum { PANELS = 24 };
-	double n = creal(m), edge = n < 1 ? asin(n) : M_PI / 2, q = 0;
-	if (cimag(m) == 0)
-		return 0;
-	for (int k = 0; k < 2 * PANELS; k++) {
-		double lo = k < PANELS ? edge * k / PANELS : edge + (M_PI / 2 - edge) * (k - PANELS) / PANELS;
-		double width = k < PANELS ? edge / PANELS : (M_PI / 2 - edge) / PANELS;
-		if (width == 0)
-			break;
-		for (int j = 0; j < NODES; j++) {
-			double i = lo + width * (1 + node[j]) / 2, s = sin(i), c = cos(i);
-			struct ray r = { .sin_i = s, .cos_i = c };
-			double complex r1, r2;
-			fresnel(m, s, c, &r1, &r2);
-			double kept = k < PANELS ? exp(-2 * x * cimag(chord(m, &r))) : 0;
-			double lost = k < PANELS ? -expm1(-2 * x * cimag(chord(m, &r))) : 1;
-			double sum = 0, reflected[2] = { creal(r1 * conj(r1)), creal(r2 * conj(r2)) };
-			for (int f = 0; f < 2; f++)
-				if (reflected[f] < 1)
-					sum += (1 - reflected[f]) * lost / (1 - reflected[f] * kept);
-			q += weight[j] * width / 2 * 2 * s * c * sum / 2;
-		}
+	double q = 0;
+	for (int k = 0; k < g->entries; k++) {
+		const struct entry *e = &g->entry[k];
+		double lost = -expm1(-2 * x * e->chord), sum = 0;
+		for (int j = 0; j < 2; j++)
+			if (e->reflected[j] < 1)
+				sum += (1 - e->reflected[j]) * lost / (1 - e->reflected[j] * (1 - lost));
+		q += e->weight * sum;
 	}
 	return q;
 }
@@ -411,11 +243,14 @@ int goa_measure(struct goa *g, double x, struct efficiencies *q, double *norm, d
 	double along, missing;
 	*q = (struct efficiencies){ 0 };
 	*error = INFINITY;
-	if (integrals(g, x, norm, &along))
+	*norm = integral(g, 1, x, &along);
+	if (*norm < 0) {
+		*norm = 0;
 		return -1;
+	}
 	amplitudes(g, &g->back, x, &s1, &s2);
 	q->ext = extinction(g, x, &missing);
-	q->abs = fmin(absorption(g->m, x), fmax(q->ext, 0));
+	q->abs = fmin(absorption(g, x), fmax(q->ext, 0));
 	q->sca = q->ext - q->abs;
 	q->g = *norm > 0 ? along / *norm : 0;
 	q->back = 4 * creal(s1 * conj(s1)) / (x * x);

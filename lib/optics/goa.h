@@ -19,8 +19,9 @@
  * Returns 0, or -1 when memory ran out. */
 int goa_amplitudes(double x, double complex m, int order, int n, const double *theta, double complex *s1, double complex *s2);
 
-/* goa_norm - integral over the sphere of (|S1|^2 + |S2|^2)/2, on an internal grid that resolves the diffraction lobe and both
- * ends; p(theta) = (|S1|^2 + |S2|^2) / (2 goa_norm) then integrates to 1 over the sphere. Negative when memory ran out. */
+/* goa_norm - integral over the sphere of (|S1|^2 + |S2|^2)/2, on an internal grid (goa_norm.h) that resolves the diffraction lobe
+ * and both ends; p(theta) = (|S1|^2 + |S2|^2) / (2 goa_norm) then integrates to 1 over the sphere.
+ * Negative when memory ran out. */
 double goa_norm(double x, double complex m, int order);
 
 /* goa_efficiencies - extinction by eq 14 (p = 1; eq 12 for higher odd orders <= order), absorption from the attenuation of the
@@ -43,6 +44,11 @@ int goa_aim(struct goa *g, int n, const double *theta);
 
 /* goa_at - S1, S2 of size x at the angles of goa_aim. */
 void goa_at(const struct goa *g, double x, double complex *s1, double complex *s2);
+
+/* goa_incoherent - |S1|^2, |S2|^2 of size x at the angles of goa_aim, the powers of diffraction and of all rays added without
+ * interference, and the norm: p = (|S1|^2 + |S2|^2) / (2 norm). What a distribution of sizes comes to that is wide enough; it
+ * depends on size by the diffraction lobe, the caps and absorption alone. Returns 0, or -1 when memory ran out. */
+int goa_incoherent(struct goa *g, double x, double *i1, double *i2, double *norm);
 
 /* goa_measure - goa_efficiencies and goa_norm at once. Returns 0, or -1 when memory ran out (all is 0 then, *error infinite). */
 int goa_measure(struct goa *g, double x, struct efficiencies *q, double *norm, double *error);

@@ -21,7 +21,7 @@ int mie_terms(double x, double complex m);
 
 /* mie_coefficients - a[1..n], b[1..n]; index 0 is set to 0.
  * Given:    x   size parameter, (0, MIE_X_MAX]
- *           m   relative refractive index, Re m > 0, Im m >= 0, |m| x <= 1e9, or 1e10 where Im m > 1e-3 |m|
+ *           m   relative refractive index, Re m > 0, Im m >= 0, |m| x <= 1e9, or 2e10 where Im m > 1e-3 |m|
  *           n   number of terms, at least 1
  * Returned: a[n+1], b[n+1]; 0 on success, -1 when memory ran out */
 int mie_coefficients(double x, double complex m, int n, double complex *a, double complex *b);

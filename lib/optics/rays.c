@@ -66,6 +66,7 @@ static void finish(struct ray *r, int p, const struct direction *d, int side, in
 	int sigma = p % 2 ? side : -side;
 	int m = p % 2 ? turns + (p - 1) / 2 : turns - (sigma - p + 1) / 2;
 	r->p = p;
+	r->sigma = sigma;
 	r->axial = axial;
 	r->eighths = ((4 * m - 2 * (p - 1) - sigma - sign) % 8 + 8) % 8;
 	r->slope = p ? fabs(2 - 2 * p * r->cos_i / r->q) : 2;
@@ -106,43 +107,69 @@ static int transmitted(double n, const struct direction *d, struct ray *r)
 	return 1;
 }
 
-/* Rays of one branch, on which tau runs monotonically from turn(lo) to turn(hi). */
-static int on_branch(double n, int p, const struct caustic *c, const struct direction *d, double lo, double hi, int sign, struct ray *out)
+int rays_branches(double n, int p, const struct caustic *c, struct branch out[2])
 {
-	double from = turn(n, p, lo), to = turn(n, p, hi), least = fmin(from, to), most = fmax(from, to);
-	int k = 0, central = lo == 0;
-	for (int side = -1; side <= 1; side += 2)
-		for (int turns = (int)ceil((least - side * d->from_axis) / (2 * M_PI) - 1e-9);; turns++) {
-			double tau = side * d->from_axis + 2 * M_PI * turns;
-			if (tau > most)
-				break;
-			if (tau < least || (central && tau == 0 && side != sign))
-				continue;
-			double guess = lo + (hi - lo) * (tau - from) / (to - from);
-			if (!isnan(c->tau))
-				guess = c->incidence + sign * sqrt(2 * fmax(tau - c->tau, 0) / c->bend);
-			double u = solve(n, p, lo, hi, sign, guess, tau), s = sin(u), q = cos(u);
-			struct ray *r = &out[k++];
-			r->sin_i = n < 1 ? n * s : s;
-			r->cos_i = n < 1 ? sqrt(1 - n * n * s * s) : q;
-			r->q = n < 1 ? n * q : sqrt((n - 1) * (n + 1) + q * q);
-			finish(r, p, d, side, turns, sign, central && turns == 0 && d->from_axis < M_PI / 2);
-			if (!isnan(c->tau))
-				r->gap = fabs(tau - c->tau);
-		}
+	out[0] = (struct branch){ 0, M_PI / 2, 0, 0, n <= 1 ? -1 : 1, 1 };
+	int k = 1;
+	if (!isnan(c->tau)) {
+		out[0] = (struct branch){ 0, c->incidence, 0, 0, -1, 1 };
+		out[1] = (struct branch){ c->incidence, M_PI / 2, 0, 0, 1, 0 };
+		k = 2;
+	}
+	for (int b = 0; b < k; b++) {
+		out[b].from = turn(n, p, out[b].lo);
+		out[b].to = turn(n, p, out[b].hi);
+	}
 	return k;
+}
+
+static struct direction direction(int p, double theta)
+{
+	double rest = 180 - theta;
+	return (struct direction){ sin(fmin(theta, rest) * (M_PI / 180)), (p % 2 ? theta : rest) * (M_PI / 180) };
+}
+
+/* The ray of a branch with tau = side from_axis + 2 pi turns, if there is one. */
+static int one_ray(double n, int p, const struct caustic *c, const struct branch *b, const struct direction *d, int side,
+		   int turns, struct ray *r)
+{
+	double tau = side * d->from_axis + 2 * M_PI * turns;
+	if (tau < fmin(b->from, b->to) || tau > fmax(b->from, b->to) || (b->central && tau == 0 && side != b->sign))
+		return 0;
+	double guess = b->lo + (b->hi - b->lo) * (tau - b->from) / (b->to - b->from);
+	if (!isnan(c->tau))
+		guess = c->incidence + b->sign * sqrt(2 * fmax(tau - c->tau, 0) / c->bend);
+	double u = solve(n, p, b->lo, b->hi, b->sign, guess, tau), s = sin(u), q = cos(u);
+	r->sin_i = n < 1 ? n * s : s;
+	r->cos_i = n < 1 ? sqrt(1 - n * n * s * s) : q;
+	r->q = n < 1 ? n * q : sqrt((n - 1) * (n + 1) + q * q);
+	finish(r, p, d, side, turns, b->sign, b->central && turns == 0 && d->from_axis < M_PI / 2);
+	if (!isnan(c->tau))
+		r->gap = fabs(tau - c->tau);
+	return 1;
+}
+
+int rays_at(double n, int p, const struct caustic *c, const struct branch *b, double theta, int side, int turns, struct ray *r)
+{
+	struct direction d = direction(p, theta);
+	return one_ray(n, p, c, b, &d, side, turns, r);
 }
 
 int rays_find(double n, int p, const struct caustic *c, double theta, struct ray *out)
 {
-	double rest = 180 - theta;
-	struct direction d = { sin(fmin(theta, rest) * (M_PI / 180)), (p % 2 ? theta : rest) * (M_PI / 180) };
+	struct direction d = direction(p, theta);
+	struct branch branch[2];
 	if (p == 0)
 		return reflected(n, &d, out);
 	if (p == 1)
 		return transmitted(n, &d, out);
-	if (isnan(c->tau))
-		return on_branch(n, p, c, &d, 0, M_PI / 2, n <= 1 ? -1 : 1, out);
-	int k = on_branch(n, p, c, &d, 0, c->incidence, -1, out);
-	return k + on_branch(n, p, c, &d, c->incidence, M_PI / 2, 1, out + k);
+	int k = 0;
+	for (int b = 0, branches = rays_branches(n, p, c, branch); b < branches; b++) {
+		double least = fmin(branch[b].from, branch[b].to), most = fmax(branch[b].from, branch[b].to);
+		for (int side = -1; side <= 1; side += 2)
+			for (int turns = (int)ceil((least - side * d.from_axis) / (2 * M_PI) - 1e-9);
+			     side * d.from_axis + 2 * M_PI * turns <= most; turns++)
+				k += one_ray(n, p, c, &branch[b], &d, side, turns, &out[k]);
+	}
+	return k;
 }

@@ -13,6 +13,7 @@
 
 struct ray {
 	int p;
+	int sigma;            /* its angle is sigma theta + 2 pi M */
 	int axial;            /* belongs to the family that holds the central ray (i = 0) of the nearer axis */
 	int eighths;          /* the phase that does not grow with size, -(p-1) pi/2 + M pi - sigma pi/4 - (pi/4) sgn Theta'_p, in pi/4 */
 	double sin_i, cos_i;
@@ -38,5 +39,20 @@ struct caustic rays_caustic(double n, int p);
  *        out  room for RAYS_MAX(p)
  * Returns how many. On an axis, the central ray comes once, others as the pair that they are beside it. */
 int rays_find(double n, int p, const struct caustic *c, double theta, struct ray *out);
+
+/* A stretch of incidence on which tau runs monotonically: the only one, or one on either side of the rainbow. */
+struct branch {
+	double lo, hi;        /* angle of incidence, of refraction for n < 1 */
+	double from, to;      /* tau at either end */
+	int sign;             /* of Theta' */
+	int central;          /* begins with the central ray */
+};
+
+/* rays_branches - those of order p >= 2; returns how many. */
+int rays_branches(double n, int p, const struct caustic *c, struct branch out[2]);
+
+/* rays_at - the ray of a branch with tau = side from_axis + 2 pi turns, from_axis the angle between theta (degrees) and the axis
+ * of the central ray; returns whether there is one. On the axis the central ray has but one side. */
+int rays_at(double n, int p, const struct caustic *c, const struct branch *b, double theta, int side, int turns, struct ray *r);
 
 #endif

@@ -11,7 +11,7 @@
 /* Relative refractive indices in reach; with |m| x no larger than this, orders fit an int. */
 #define M_MIN 1e-3
 #define M_MAX 2e3
-#define Y_MAX(m) (cimag(m) > 1e-3 * cabs(m) ? 1e10 : 1e9)    /* of |m| x; more would take minutes a size */
+#define Y_MAX(m) (cimag(m) > 1e-3 * cabs(m) ? 2e10 : 1e9)    /* of |m| x; more would take minutes a size */
 
 struct sizes {
 	struct tab *table;                  /* NULL: the options give the sizes */
