@@ -20,7 +20,7 @@ EXR_CFLAGS = $(shell pkg-config --cflags OpenEXR)    # asked for when used: make
 TOOLS = $(patsubst tools/%.c,%,$(wildcard tools/*.c))
 CHECKS = $(patsubst tests/%.c,%,$(wildcard tests/*.c))
 GENERATED = materials kernels
-OBJECTS = $(patsubst lib/%.c,obj/%.o,$(filter-out lib/render/lanes.c lib/optics/mie_block.c lib/optics/goa_lanes.c,$(wildcard lib/*/*.c))) \
+OBJECTS = $(patsubst lib/%.c,obj/%.o,$(filter-out lib/render/lanes.c lib/optics/mie_block.c lib/optics/mie_angles.c lib/optics/goa_lanes.c,$(wildcard lib/*/*.c))) \
 	$(GENERATED:%=obj/gen/%.o) $(LANE_OBJECTS) $(MIE_OBJECTS) $(GOA_OBJECTS)
 
 # The renderer's kernels, for each processor, transport and number of wavelengths (0: any; p: with a peak): LANES and the instructions.
@@ -33,8 +33,8 @@ LANE_OBJECTS = $(foreach cpu,$(CPUS),$(foreach t,0 1 2 3,$(foreach w,0 1 3 1p 3p
 lane_flags = -g1 -Wno-unused-parameter $(LANES_$(word 1,$(1))) -DRENDER=render_$(subst $(space),_,$(1)) -DTRANSPORT=$(word 2,$(1)) \
 	$(if $(filter-out 0,$(word 3,$(1))),-DWAVES=$(subst p,,$(word 3,$(1))) -DPEAK=$(if $(findstring p,$(word 3,$(1))),1,0))
 space = $(subst ,, )
-# The loop of Lorenz-Mie over many spheres, for each processor: doubles are twice as long.
-MIE_OBJECTS = $(CPUS:%=obj/optics/mie_block/%.o)
+# The loops of Lorenz-Mie over many spheres and many angles, for each processor: doubles are twice as long.
+MIE_OBJECTS = $(foreach loop,mie_block mie_angles,$(CPUS:%=obj/optics/$(loop)/%.o))
 DOUBLES_scalar = -DLANES=1
 DOUBLES_v2 = -DLANES=2 -march=x86-64-v2
 DOUBLES_v3 = -DLANES=4 -march=x86-64-v3
@@ -55,9 +55,12 @@ $(1)/obj/%.o: lib/%.c
 $(addprefix $(1)/,$(LANE_OBJECTS)): $(1)/obj/render/lanes/%.o: lib/render/lanes.c
 	@mkdir -p $$(@D)
 	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-O3) $$(call lane_flags,$$(subst _, ,$$*)) -MMD -MP -c -o $$@ $$<
-$(addprefix $(1)/,$(MIE_OBJECTS)): $(1)/obj/optics/mie_block/%.o: lib/optics/mie_block.c
+$(CPUS:%=$(1)/obj/optics/mie_block/%.o): $(1)/obj/optics/mie_block/%.o: lib/optics/mie_block.c
 	@mkdir -p $$(@D)
 	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-funroll-loops) $$(DOUBLES_$$*) -DMIE_BLOCK_FN=mie_block_$$* -MMD -MP -c -o $$@ $$<
+$(CPUS:%=$(1)/obj/optics/mie_angles/%.o): $(1)/obj/optics/mie_angles/%.o: lib/optics/mie_angles.c
+	@mkdir -p $$(@D)
+	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-funroll-loops) $$(DOUBLES_$$*) -DMIE_ANGLES_FN=mie_angles_$$* -MMD -MP -c -o $$@ $$<
 $(addprefix $(1)/,$(GOA_OBJECTS)): $(1)/obj/optics/goa_lanes/%.o: lib/optics/goa_lanes.c
 	@mkdir -p $$(@D)
 	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-O3) -fno-trapping-math -fcx-limited-range -fno-tree-slp-vectorize $$(LANES_$$*) -DGOA_LANES=goa_lanes_$$* -MMD -MP -c -o $$@ $$<

@@ -38,7 +38,7 @@ static void by_goa(const struct size *size, struct answer *a)
 }
 
 /* n sizes; those whose coefficients were read have them. */
-static void by_mie(int cpu, int n, struct waves *w, struct answer *a)
+static void by_mie(int n, struct waves *w, struct answer *a)
 {
 	static double x[COEFFS_BATCH], error[COEFFS_BATCH];
 	static double complex m[COEFFS_BATCH];
@@ -54,7 +54,7 @@ static void by_mie(int cpu, int n, struct waves *w, struct answer *a)
 		x[i] = w[i].size.x;
 		m[i] = w[i].size.m;
 	}
-	if (mie_many(cpu, n, x, m, q, error))
+	if (mie_many(n, x, m, q, error))
 		die(NULL, "out of memory");
 	for (int i = 0; i < n; i++)
 		a[i] = (struct answer){ q[i], error[i] };
@@ -95,13 +95,13 @@ static struct worst run(struct coeffs *in, int method, const char *output, const
 	struct worst worst = { .error = -1 };
 	struct tab_col cols[TAB_COLS];
 	double row[TAB_COLS];
-	int cpu = cpu_level(), by_x = coeffs_by_x(in), k = coeffs_columns(in, cols);
+	int by_x = coeffs_by_x(in), k = coeffs_columns(in, cols);
 	k += columns(by_x, cols + k);
 	int ncarried = coeffs_carried(in, k, cols, cols + k), n = coeffs_batch(in, w);
 	struct tab_out *out = tab_create(output, coeffs_history(in), command, k + ncarried, cols);
 	for (; n; n = coeffs_batch(in, w)) {
 		if (method == MIE)
-			by_mie(cpu, n, w, a);
+			by_mie(n, w, a);
 #pragma omp parallel for schedule(dynamic) if (n > 1)
 		for (int i = 0; i < (method == GOA ? n : 0); i++)
 			by_goa(&w[i].size, &a[i]);

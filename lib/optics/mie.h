@@ -27,9 +27,9 @@ int mie_terms(double x, double complex m);
 int mie_coefficients(double x, double complex m, int n, double complex *a, double complex *b);
 
 /* mie_many - efficiencies and mie_error of n spheres x[n], m[n] (ranges as above), many side by side, the same to the last bit as of each
- * alone. cpu: which processor's build, as of base/cpu.h. Blocks of spheres are shared out among OpenMP threads.
+ * alone. Blocks of spheres are shared out among OpenMP threads.
  * Returned: q[n], error[n]; 0, or -1 when memory ran out */
-int mie_many(int cpu, int n, const double *x, const double complex *m, struct efficiencies *q, double *error);
+int mie_many(int n, const double *x, const double complex *m, struct efficiencies *q, double *error);
 
 /* mie_lossless - whether a[n+1], b[n+1] are those of a particle that does not absorb: |a|^2 = Re a and |b|^2 = Re b to rounding.
  * So a stream of coefficients need not carry m. */

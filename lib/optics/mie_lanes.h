@@ -40,4 +40,26 @@ extern mie_block_fn mie_block_scalar;
 extern mie_block_fn mie_block_v2, mie_block_v3, mie_block_v4;
 #endif
 
+#define MIE_ANGLES 32
+
+/* What the sums at an angle need of order l. */
+struct mie_factors {
+	double rise, twice;        /* (l+1)/l, 2/l */
+	double side[2][4];         /* Re s, Im s, Re d, Im d in front, behind: with the factor (2l+1)/(l+1) */
+};
+enum { MIE_FRONT = 1, MIE_BEHIND = 2, MIE_PAIR = 3 };
+
+/* Sums over l of s_l (pi_l + tau_l)/l and d_l (pi_l - tau_l)/l at MIE_ANGLES angles in [0, 90] deg given by c = 1 - cos theta.
+ * Given:    k[n+1], k[0] unused; sides: with the factors for angles in front, for those behind, or first with these, then with those
+ * Returned: out[4, or 8 of a pair]: real and imaginary part of the one, then of the other sum */
+typedef void mie_angles_fn(int n, const struct mie_factors *k, int sides, const double *c, double (*out)[MIE_ANGLES]);
+extern mie_angles_fn mie_angles_scalar;
+#ifdef __x86_64__
+extern mie_angles_fn mie_angles_v2, mie_angles_v3, mie_angles_v4;
+#endif
+
+/* The builds for this processor, by cpu_level. */
+mie_block_fn *mie_block(void);
+mie_angles_fn *mie_angles(void);
+
 #endif

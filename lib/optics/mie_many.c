@@ -18,16 +18,6 @@ static int by_cost(const void *a, const void *b)
 	return p->terms != q->terms ? (p->terms > q->terms ? 1 : -1) : p->at - q->at;
 }
 
-static mie_block_fn *block_for(int cpu)
-{
-	mie_block_fn *const build[] = { mie_block_scalar,
-#ifdef __x86_64__
-		mie_block_v2, mie_block_v3, mie_block_v4
-#endif
-	};
-	return build[cpu];
-}
-
 /* A sphere of too many terms for a block. */
 static int alone(double x, double complex m, int n, struct efficiencies *q, double *error)
 {
@@ -65,10 +55,10 @@ static int together(mie_block_fn *block, const struct item *item, int n, const d
 	return 0;
 }
 
-int mie_many(int cpu, int n, const double *x, const double complex *m, struct efficiencies *q, double *error)
+int mie_many(int n, const double *x, const double complex *m, struct efficiencies *q, double *error)
 {
 	struct item *item = malloc(((size_t)n + 1) * sizeof *item);
-	mie_block_fn *block = block_for(cpu);
+	mie_block_fn *block = mie_block();
 	if (!item)
 		return -1;
 	int sorted = 1, bad = 0;

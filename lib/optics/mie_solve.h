@@ -1,6 +1,4 @@
-/* mie_solve - the partial waves of WIDTH spheres side by side: LANES in a vector, UNROLL vectors in turn, so that one hides the other's
- * latency. Included with LANES and UNROLL set; nothing is contracted and no lane looks at another, so that a sphere's bits are the
- * same at every width.
+/* mie_solve - the partial waves of WIDTH spheres side by side. Included with LANES and UNROLL set.
  *
  * Symbols. psi_l, chi_l, xi_l = psi_l - i chi_l Riccati-Bessel functions with psi_0 = sin, chi_0 = cos;
  * y = m x; E_l(z) = -psi_{l+1}(z)/psi_l(z), so that D_l(z) = psi_l'(z)/psi_l(z) = E_l(z) + (l+1)/z.
@@ -18,32 +16,11 @@
 #ifndef OPTICS_MIE_SOLVE_H
 #define OPTICS_MIE_SOLVE_H
 
+#include "optics/vec.h"
+
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
-#include <stdint.h>
-
-#define WIDTH (LANES * UNROLL)
-#define EACH(u) for (int u = 0; u < UNROLL; u++)
-#define INLINE static inline __attribute__((always_inline))
-
-#if LANES == 1
-typedef double vec;
-typedef int64_t truths;
-#define PICK(m, a, b) ((m) ? (a) : (b))
-#define TRUTHS(c) (c)
-#define LANE(v, i) ((v)[i])
-#else
-typedef double vec __attribute__((vector_size(8 * LANES)));
-typedef int64_t truths __attribute__((vector_size(8 * LANES)));
-#define PICK(m, a, b) ((vec)(((m) & (truths)(a)) | (~(m) & (truths)(b))))
-#define TRUTHS(c) (c)
-#define LANE(v, i) ((v)[(i) / LANES][(i) % LANES])
-#endif
-
-INLINE vec each(double a) { return a - (vec){ 0 }; }
-INLINE vec larger(vec a, vec b) { return PICK(TRUTHS(a > b), a, b); }
-INLINE vec not_zero(vec a) { return PICK(a == 0, each(1e-290), a); }
 
 /* First order of the downward recurrence that leaves no trace at order n (rounding included) of its start with 0; even. With
  * l = |z| + t |z|^(1/3), psi_l/chi_l falls as e^(-1.89 t^(3/2)) beyond |z|; it must fall by 1e-17 from n on. Below |z|, where

@@ -1,0 +1,111 @@
+#include "optics/mie.h"
+#include "optics/mie_lanes.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* An angle folded into the front half: its distance from the nearer axis, where it comes from, and -1 where there is none. */
+struct folded {
+	double t;
+	int front, behind;
+};
+
+static int by_angle(const void *a, const void *b)
+{
+	const struct folded *p = a, *q = b;
+	return p->t != q->t ? (p->t > q->t ? 1 : -1) : (p->behind >= 0) - (q->behind >= 0);
+}
+
+/* Where it comes from. */
+static int side(const struct folded *f) { return (f->front >= 0 ? MIE_FRONT : 0) | (f->behind >= 0 ? MIE_BEHIND : 0); }
+
+static int by_side(const void *a, const void *b)
+{
+	const struct folded *p = a, *q = b;
+	return side(p) != side(q) ? side(p) - side(q) : by_angle(a, b);
+}
+
+/* Fold n angles; where one lies behind as far as another in front, both are one. Returns how many are left. */
+static int fold(int n, const double *theta, struct folded *f)
+{
+	int left = 0;
+	for (int i = 0; i < n; i++)
+		f[i] = theta[i] <= 90 ? (struct folded){ theta[i], i, -1 } : (struct folded){ 180 - theta[i], -1, i };
+	qsort(f, (size_t)n, sizeof *f, by_angle);
+	for (int i = 0; i < n; i++) {
+		if (left && f[left - 1].t == f[i].t && f[left - 1].behind < 0 && f[i].front < 0)
+			f[left - 1].behind = f[i].behind;
+		else
+			f[left++] = f[i];
+	}
+	qsort(f, (size_t)left, sizeof *f, by_side);
+	return left;
+}
+
+/* Where blocks of up to MIE_ANGLES angles of one side begin, and the end; returns how many blocks. */
+static int divide(int n, const struct folded *f, int *begin)
+{
+	int blocks = 0;
+	for (int i = 0; i < n; i++)
+		if (i == 0 || i - begin[blocks - 1] == MIE_ANGLES || side(&f[i]) != side(&f[i - 1]))
+			begin[blocks++] = i;
+	begin[blocks] = n;
+	return blocks;
+}
+
+/* S1 + S2 = sum s (pi + tau), S1 - S2 = sum d (pi - tau) with s = a + b, d = a - b in front. Behind 90 deg, with theta' = 180 - theta,
+ * pi + tau becomes (-1)^(l-1) (pi - tau): s becomes (-1)^(l-1) d, d the like of s, and the two sums change places. */
+static void factors(int n, const double complex *a, const double complex *b, struct mie_factors *k)
+{
+	for (int l = 1; l <= n; l++) {
+		double w = (2.0 * l + 1) / (l + 1.0), sign = l % 2 ? w : -w;
+		double complex s = a[l] + b[l], d = a[l] - b[l];
+		k[l] = (struct mie_factors){ 1 + 1.0 / l, 2.0 / l, { { w * creal(s), w * cimag(s), w * creal(d), w * cimag(d) },
+			{ sign * creal(d), sign * cimag(d), sign * creal(s), sign * cimag(s) } } };
+	}
+}
+
+static void amplitude(double (*sum)[MIE_ANGLES], int i, int behind, double complex *s1, double complex *s2)
+{
+	double complex u = CMPLX(sum[0][i], sum[1][i]), w = CMPLX(sum[2][i], sum[3][i]);
+	*s1 = (u + w) / 2;
+	*s2 = (behind ? w - u : u - w) / 2;
+}
+
+int mie_amplitudes(int n, const double complex *a, const double complex *b, int ntheta, const double *theta,
+                   double complex *s1, double complex *s2)
+{
+	struct mie_factors *k = malloc(((size_t)n + 1) * sizeof *k);
+	struct folded *f = malloc(((size_t)ntheta + 1) * sizeof *f);
+	int *begin = malloc(((size_t)ntheta + 1) * sizeof *begin);    /* a block an angle at most */
+	mie_angles_fn *sums = mie_angles();
+	if (!k || !f || !begin) {
+		free(k);
+		free(f);
+		free(begin);
+		return -1;
+	}
+	factors(n, a, b, k);
+	int blocks = divide(fold(ntheta, theta, f), f, begin);
+#pragma omp parallel for schedule(dynamic) if ((double)n * ntheta > 1e6)
+	for (int block = 0; block < blocks; block++) {
+		const struct folded *own = f + begin[block];
+		int angles = begin[block + 1] - begin[block], which = side(own);
+		double c[MIE_ANGLES] = { 0 }, sum[8][MIE_ANGLES];
+		for (int i = 0; i < angles; i++) {
+			double h = sin(own[i].t * (M_PI / 360));
+			c[i] = 2 * h * h;
+		}
+		sums(n, k, which, c, sum);
+		for (int i = 0; i < angles; i++) {
+			if (which & MIE_FRONT)
+				amplitude(sum, i, 0, &s1[own[i].front], &s2[own[i].front]);
+			if (which & MIE_BEHIND)
+				amplitude(which == MIE_PAIR ? sum + 4 : sum, i, 1, &s1[own[i].behind], &s2[own[i].behind]);
+		}
+	}
+	free(begin);
+	free(k);
+	free(f);
+	return 0;
+}

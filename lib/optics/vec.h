@@ -1,0 +1,30 @@
+/* vec - LANES doubles in a vector, UNROLL vectors in turn, so that one hides the other's latency; for loops that are compiled for several
+ * processors from one source. Nothing is contracted and no lane looks at another: a lane's bits are the same at every width. */
+#ifndef OPTICS_VEC_H
+#define OPTICS_VEC_H
+
+#include <stdint.h>
+
+#define WIDTH (LANES * UNROLL)
+#define EACH(u) for (int u = 0; u < UNROLL; u++)
+#define INLINE static inline __attribute__((always_inline))
+
+#if LANES == 1
+typedef double vec;
+typedef int64_t truths;
+#define PICK(m, a, b) ((m) ? (a) : (b))
+#define TRUTHS(c) (c)
+#define LANE(v, i) ((v)[i])
+#else
+typedef double vec __attribute__((vector_size(8 * LANES)));
+typedef int64_t truths __attribute__((vector_size(8 * LANES)));
+#define PICK(m, a, b) ((vec)(((m) & (truths)(a)) | (~(m) & (truths)(b))))
+#define TRUTHS(c) (c)
+#define LANE(v, i) ((v)[(i) / LANES][(i) % LANES])
+#endif
+
+INLINE vec each(double a) { return a - (vec){ 0 }; }
+INLINE vec larger(vec a, vec b) { return PICK(TRUTHS(a > b), a, b); }
+INLINE vec not_zero(vec a) { return PICK(a == 0, each(1e-290), a); }
+
+#endif
