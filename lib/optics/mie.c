@@ -12,9 +12,14 @@
 #define UNROLL 1
 #include "optics/mie_solve.h"
 
+static double norm2(double complex z)
+{
+	return creal(z) * creal(z) + cimag(z) * cimag(z);
+}
+
 int mie_terms(double x, double complex m)
 {
-	double edge = cbrt(x), y = cabs(m) * x, broad = cimag(m) * x;
+	double edge = cbrt(x), y = sqrt(norm2(m)) * x, broad = cimag(m) * x;
 	double n = x + 7 * edge + 8;                  /* psi_l / chi_l < 1e-16, falling as e^(-1.89 t^(3/2)) at x + t x^(1/3) */
 	if (broad >= 1)
 		return (int)ceil(n);
@@ -25,7 +30,7 @@ int mie_terms(double x, double complex m)
 
 int mie_coefficients(double x, double complex m, int n, double complex *a, double complex *b)
 {
-	struct spheres s = { { x }, { creal(m) }, { cimag(m) }, { n }, n, cimag(m) > 0, cabs(m - 1) < MIE_NEAR };
+	struct spheres s = { { x }, { creal(m) }, { cimag(m) }, { n }, n, cimag(m) > 0, mie_near(m) };
 	double *room = malloc(3 * ((size_t)n + 2) * sizeof *room);
 	if (!room)
 		return -1;
@@ -42,11 +47,6 @@ int mie_coefficients(double x, double complex m, int n, double complex *a, doubl
 	}
 	free(room);
 	return 0;
-}
-
-static double norm2(double complex z)
-{
-	return creal(z) * creal(z) + cimag(z) * cimag(z);
 }
 
 int mie_lossless(int n, const double complex *a, const double complex *b)
@@ -72,16 +72,18 @@ struct efficiencies mie_of_sums(double x, int lossless, const struct mie_sums *s
 	return q;
 }
 
-double mie_error_of_sums(double x, const struct mie_sums *s)
+double mie_error_of_sums(double x, int lossless, const struct mie_sums *s)
 {
-	/* The largest coefficient is about (4/9) |m-1| x^3 where x is small, |m-1| x where it is large and m near 1. */
-	double contrast = fmin(1, sqrt(s->top) / fmin(1, 4.0 / 9 * x * x * x) / fmax(1, x));
+	/* The largest coefficient is about (4/9) |m-1| x^3 where x is small, |m-1| x where it is large and m near 1; of all, the sum of
+	 * (2l+1) |a|^2 tells: 3 |a_1|^2 or about x^2 times the largest. */
+	double size = sqrt((lossless ? s->ext : s->sca) / fmax(3, x * x));
+	double contrast = fmin(1, size / fmin(1, 4.0 / 9 * x * x * x) / fmax(1, x));
 	return 2 * DBL_EPSILON * (10 + x + 1 / contrast);
 }
 
 static struct mie_sums sums_of(int lossless, int n, const double complex *a, const double complex *b)
 {
-	struct solved q = { { 0 }, { 0 }, { 0 }, { 0 }, { 0 }, { 0 } };
+	struct solved q = { { 0 }, { 0 }, { 0 }, { 0 }, { 0 } };
 	struct spheres s = { .absorb = !lossless };
 	double old_a[2] = { 0, 0 }, old_b[2] = { 0, 0 };
 	for (int l = 1; l <= n; l++) {
@@ -90,7 +92,7 @@ static struct mie_sums sums_of(int lossless, int n, const double complex *a, con
 		memcpy(old_a, al, sizeof al);
 		memcpy(old_b, bl, sizeof bl);
 	}
-	return (struct mie_sums){ q.ext[0], q.sca[0], q.asym[0], q.back_re[0], q.back_im[0], q.top[0] };
+	return (struct mie_sums){ q.ext[0], q.sca[0], q.asym[0], q.back_re[0], q.back_im[0] };
 }
 
 struct efficiencies mie_efficiencies(double x, int lossless, int n, const double complex *a, const double complex *b)
@@ -102,5 +104,5 @@ struct efficiencies mie_efficiencies(double x, int lossless, int n, const double
 double mie_error(double x, int lossless, int n, const double complex *a, const double complex *b)
 {
 	struct mie_sums s = sums_of(lossless, n, a, b);
-	return mie_error_of_sums(x, &s);
+	return mie_error_of_sums(x, lossless, &s);
 }

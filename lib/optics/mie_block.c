@@ -35,7 +35,7 @@ INLINE void sums(struct mie_block *b, int first, int absorb, int near)
 		s.most = b->terms[first + i] > s.most ? b->terms[first + i] : s.most;
 	}
 	EACH(u) {
-		q.ext[u] = q.sca[u] = q.asym[u] = q.back_re[u] = q.back_im[u] = q.top[u] = each(0);
+		q.ext[u] = q.sca[u] = q.asym[u] = q.back_re[u] = q.back_im[u] = each(0);
 		for (int c = 0; c < 2; c++)
 			old[0][u][c] = old[1][u][c] = each(0);
 	}
@@ -45,8 +45,7 @@ INLINE void sums(struct mie_block *b, int first, int absorb, int near)
 	orders(&k, &q, old, &s, &e, 1, inside, 0);
 	orders(&k, &q, old, &s, &e, inside + 1, s.most, 1);
 	for (int i = 0; i < WIDTH; i++)
-		b->sums[first + i] = (struct mie_sums){ LANE(q.ext, i), LANE(q.sca, i), LANE(q.asym, i), LANE(q.back_re, i), LANE(q.back_im, i),
-			LANE(q.top, i) };
+		b->sums[first + i] = (struct mie_sums){ LANE(q.ext, i), LANE(q.sca, i), LANE(q.asym, i), LANE(q.back_re, i), LANE(q.back_im, i) };
 }
 
 void MIE_BLOCK_FN(struct mie_block *b)

@@ -12,17 +12,21 @@
 
 #define MIE_NEAR 0.005         /* |m - 1| below which coefficients are taken from differences */
 
+static inline int mie_near(double complex m)
+{
+	return (creal(m) - 1) * (creal(m) - 1) + cimag(m) * cimag(m) < MIE_NEAR * MIE_NEAR;
+}
+
 /* Sums over l = 1 .. terms. */
 struct mie_sums {
 	double ext, sca;           /* sum (2l+1) Re(a + b), (2l+1) (|a|^2 + |b|^2) */
 	double asym;               /* sum l(l+2)/(l+1) Re(a_l a*_(l+1) + b_l b*_(l+1)) + (2l+1)/(l(l+1)) Re(a_l b*_l) */
 	double back_re, back_im;   /* sum (-1)^l (2l+1) (a - b) */
-	double top;                /* the largest |a|^2 or |b|^2 */
 };
 
 /* Efficiencies, and the estimate of their error, of sums at size parameter x. */
 struct efficiencies mie_of_sums(double x, int lossless, const struct mie_sums *s);
-double mie_error_of_sums(double x, const struct mie_sums *s);
+double mie_error_of_sums(double x, int lossless, const struct mie_sums *s);
 
 struct mie_block {
 	int absorbs, near;         /* some Im m > 0, else m_im is not looked at; all |m - 1| < MIE_NEAR */

@@ -49,7 +49,7 @@ static int together(mie_block_fn *block, const struct item *item, int n, const d
 	for (int i = 0; i < n; i++) {
 		int at = item[i].at;
 		q[at] = mie_of_sums(x[at], !b.absorbs, &b.sums[i]);
-		error[at] = mie_error_of_sums(x[at], &b.sums[i]);
+		error[at] = mie_error_of_sums(x[at], !b.absorbs, &b.sums[i]);
 	}
 	free(b.ratios);
 	return 0;
@@ -63,7 +63,7 @@ int mie_many(int n, const double *x, const double complex *m, struct efficiencie
 		return -1;
 	int sorted = 1, bad = 0;
 	for (int i = 0; i < n; i++) {
-		item[i] = (struct item){ i, mie_terms(x[i], m[i]), (cimag(m[i]) > 0 ? ABSORBS : 0) | (cabs(m[i] - 1) < MIE_NEAR ? NEAR : 0) };
+		item[i] = (struct item){ i, mie_terms(x[i], m[i]), (cimag(m[i]) > 0 ? ABSORBS : 0) | (mie_near(m[i]) ? NEAR : 0) };
 		sorted &= i == 0 || by_cost(&item[i - 1], &item[i]) < 0;
 	}
 	if (!sorted)

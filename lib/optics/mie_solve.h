@@ -28,9 +28,9 @@
 INLINE int ratios_start(int n, double re, double im)
 {
 	double z = sqrt(re * re + im * im), edge = cbrtf((float)z), t = (n - z) / edge;
-	double beyond = ceil(fmax(n, z)) + 17 + (int)(edge * (t > 3 ? 14 / sqrt(t) : 8));
-	double forgotten = im > 0 ? ceil(sqrt((double)n * n + 45 * z * z / im)) + 17 : INFINITY;
-	return (int)fmin(beyond, forgotten) & ~1;
+	double beyond = (n > z ? n : z) + 18 + (int)(edge * (t > 3 ? 14 / sqrt(t) : 8));
+	double forgotten = im > 0 ? sqrt((double)n * n + 45 * z * z / im) + 18 : INFINITY;
+	return (int)(forgotten < beyond ? forgotten : beyond) & ~1;
 }
 
 /* E_l(z), 1/z = inv, down from order `top` (even) to `low`, stored for low <= l <= n + 1: E_{l-1} = -1 / ((2l+1)/z + E_l), two orders to a
@@ -143,7 +143,7 @@ struct spheres {
 
 /* Sums over all orders, as of struct mie_sums. */
 struct solved {
-	vec ext[UNROLL], sca[UNROLL], asym[UNROLL], back_re[UNROLL], back_im[UNROLL], top[UNROLL];
+	vec ext[UNROLL], sca[UNROLL], asym[UNROLL], back_re[UNROLL], back_im[UNROLL];
 };
 
 /* Ratios of psi of x and of y = m x, and the first order at which some sphere needs the former. */
@@ -166,7 +166,7 @@ INLINE struct ratios ratios_of(const struct spheres *s, vec *room)
 		LANE(start_y, i) = at_y;
 		top_x = at_x > top_x ? at_x : top_x;
 		top_y = at_y > top_y ? at_y : top_y;
-		least = fmin(least, x);
+		least = x < least ? x : least;
 	}
 	e.outside = least < s->most ? (int)ceil(least) : s->most + 1;
 	EACH(u) {
@@ -177,6 +177,7 @@ INLINE struct ratios ratios_of(const struct spheres *s, vec *room)
 			inv_im[u] = -(yi * r);
 		} else {
 			inv_re[u] = 1.0 / (s->m_re[u] * s->x[u]);
+			inv_im[u] = each(0);
 		}
 	}
 	if (s->near) {
@@ -319,19 +320,13 @@ INLINE void climb_waves(const struct climb *k, const struct spheres *s, const st
 INLINE void solved_add(struct solved *q, const struct spheres *s, int l, int u, const vec *a, const vec *b, const vec *old_a, const vec *old_b)
 {
 	double w = 2.0 * l + 1, sign = l % 2 ? -w : w, n = l - 1.0;
-	vec a2 = a[0], b2 = b[0];    /* |a|^2, which without absorption is Re a */
-	if (s->absorb) {
-		a2 = a[0] * a[0] + a[1] * a[1];
-		b2 = b[0] * b[0] + b[1] * b[1];
-	}
 	q->ext[u] += w * (a[0] + b[0]);
 	if (s->absorb)
-		q->sca[u] += w * (a2 + b2);
+		q->sca[u] += w * (a[0] * a[0] + a[1] * a[1] + b[0] * b[0] + b[1] * b[1]);
 	q->asym[u] += n * (n + 2) / (n + 1) * (old_a[0] * a[0] + old_a[1] * a[1] + old_b[0] * b[0] + old_b[1] * b[1]);
 	q->asym[u] += w / (l * (l + 1.0)) * (a[0] * b[0] + a[1] * b[1]);
 	q->back_re[u] += sign * (a[0] - b[0]);
 	q->back_im[u] += sign * (a[1] - b[1]);
-	q->top[u] = larger(q->top[u], larger(a2, b2));
 }
 
 #endif

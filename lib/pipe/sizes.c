@@ -198,7 +198,7 @@ int sizes_by_x(const struct sizes *s) { return s->x.n > 0; }
 
 static void check_x(const struct sizes *s, double x, double complex m, double radius, double wavelength)
 {
-	if (cabs(m) * x > Y_MAX(m))
+	if ((creal(m) + cimag(m)) * x > 1e9 && cabs(m) * x > Y_MAX(m))    /* the former without a root */
 		die("--particle", "size parameter %g times relative index %g exceeds %g", x, cabs(m), Y_MAX(m));
 	if (x >= SIZES_X_MIN && x <= SIZES_X_MAX)
 		return;
