@@ -20,7 +20,8 @@ EXR_CFLAGS = $(shell pkg-config --cflags OpenEXR)    # asked for when used: make
 TOOLS = $(patsubst tools/%.c,%,$(wildcard tools/*.c))
 CHECKS = $(patsubst tests/%.c,%,$(wildcard tests/*.c))
 GENERATED = materials kernels
-OBJECTS = $(patsubst lib/%.c,obj/%.o,$(filter-out lib/render/lanes.c,$(wildcard lib/*/*.c))) $(GENERATED:%=obj/gen/%.o) $(LANE_OBJECTS)
+OBJECTS = $(patsubst lib/%.c,obj/%.o,$(filter-out lib/render/lanes.c lib/optics/series_lanes.c,$(wildcard lib/*/*.c))) \
+	$(GENERATED:%=obj/gen/%.o) $(LANE_OBJECTS) $(SERIES_OBJECTS)
 
 # The renderer's kernels, for each processor, transport and number of wavelengths (0: any; p: with a peak): LANES and the instructions.
 CPUS = scalar $(if $(filter x86_64,$(shell uname -m)),v2 v3 v4)
@@ -32,6 +33,9 @@ LANE_OBJECTS = $(foreach cpu,$(CPUS),$(foreach t,0 1 2 3,$(foreach w,0 1 3 1p 3p
 lane_flags = -g1 -Wno-unused-parameter $(LANES_$(word 1,$(1))) -DRENDER=render_$(subst $(space),_,$(1)) -DTRANSPORT=$(word 2,$(1)) \
 	$(if $(filter-out 0,$(word 3,$(1))),-DWAVES=$(subst p,,$(word 3,$(1))) -DPEAK=$(if $(findstring p,$(word 3,$(1))),1,0))
 space = $(subst ,, )
+
+# The inner loops of lib/optics/series.h, for each processor.
+SERIES_OBJECTS = $(CPUS:%=obj/optics/series_lanes/%.o)
 MAN = $(wildcard man/*.[1-9])
 
 all: programs
@@ -46,6 +50,9 @@ $(1)/obj/%.o: lib/%.c
 $(addprefix $(1)/,$(LANE_OBJECTS)): $(1)/obj/render/lanes/%.o: lib/render/lanes.c
 	@mkdir -p $$(@D)
 	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-O3) $$(call lane_flags,$$(subst _, ,$$*)) -MMD -MP -c -o $$@ $$<
+$(addprefix $(1)/,$(SERIES_OBJECTS)): $(1)/obj/optics/series_lanes/%.o: lib/optics/series_lanes.c
+	@mkdir -p $$(@D)
+	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-O3) $$(filter -m%,$$(LANES_$$*)) -DKERNELS=series_$$* -MMD -MP -c -o $$@ $$<
 $(1)/obj/gen/%.o: $(B)/gen/%.c
 	@mkdir -p $$(@D)
 	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -c -o $$@ $$<
