@@ -111,7 +111,8 @@ static double mean_weight(const struct job *j, const struct size *size, double q
 
 static void add_mean(struct job *j, const struct waves *w, int n, const struct phase_result *r)
 {
-	struct mean *mean = &j->mean[mean_of(j, w->size.wavelength)];
+	size_t at = mean_of(j, w->size.wavelength);
+	struct mean *mean = &j->mean[at];
 	double weight = mean_weight(j, &w->size, r->q_sca);
 	for (int i = 0; i < n; i++) {
 		double re1 = creal(r->s1[i]), im1 = cimag(r->s1[i]), re2 = creal(r->s2[i]), im2 = cimag(r->s2[i]);
