@@ -96,6 +96,8 @@ int main(int argc, char **argv)
 	struct opt_line args = opt_parse(&tool, argc, argv);
 	if (args.n > 1)
 		die(args.operand[1], "one table at most");
+	if (series_refuses())
+		die("MOTES_CPU", "'%s' %s", getenv("MOTES_CPU"), series_refuses());
 	phase.tolerance = isnan(tolerance) ? TOLERANCE : tolerance;
 	/* Of the error asked for, a tenth is the amplitudes'; the grid has the rest. */
 	if (!isnan(tolerance)) {

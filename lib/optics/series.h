@@ -19,6 +19,10 @@ struct series *series_new(int n, double (*c)[SERIES]);
  * terms add up, at every angle. An angle's value does not depend on the others, nor does it on the processor. */
 void series_at(const struct series *s, int count, const double *theta, double (*values)[SERIES]);
 
+/* series_refuses - what is wrong with the environment's MOTES_CPU, which chooses the code path, or NULL. Where it is wrong the scalar one
+ * is taken; the values are the same. */
+const char *series_refuses(void);
+
 void series_free(struct series *s);
 
 #endif
