@@ -20,8 +20,9 @@ EXR_CFLAGS = $(shell pkg-config --cflags OpenEXR)    # asked for when used: make
 TOOLS = $(patsubst tools/%.c,%,$(wildcard tools/*.c))
 CHECKS = $(patsubst tests/%.c,%,$(wildcard tests/*.c))
 GENERATED = materials kernels
-OBJECTS = $(patsubst lib/%.c,obj/%.o,$(filter-out lib/render/lanes.c lib/optics/mie_block.c lib/optics/mie_angles.c lib/optics/goa_lanes.c,$(wildcard lib/*/*.c))) \
-	$(GENERATED:%=obj/gen/%.o) $(LANE_OBJECTS) $(MIE_OBJECTS) $(GOA_OBJECTS)
+LOOPS = mie_block mie_angles goa_lanes series_lanes
+OBJECTS = $(patsubst lib/%.c,obj/%.o,$(filter-out lib/render/lanes.c $(LOOPS:%=lib/optics/%.c),$(wildcard lib/*/*.c))) \
+	$(GENERATED:%=obj/gen/%.o) $(LANE_OBJECTS) $(MIE_OBJECTS) $(GOA_OBJECTS) $(SERIES_OBJECTS)
 
 # The renderer's kernels, for each processor, transport and number of wavelengths (0: any; p: with a peak): LANES and the instructions.
 CPUS = scalar $(if $(filter x86_64,$(shell uname -m)),v2 v3 v4)
@@ -41,6 +42,8 @@ DOUBLES_v3 = -DLANES=4 -march=x86-64-v3
 DOUBLES_v4 = -DLANES=8 -march=x86-64-v4 -mprefer-vector-width=512
 # The loops of GOA, for each processor. Without -fno-tree-slp-vectorize gcc contracts complex products whatever -ffp-contract says.
 GOA_OBJECTS = $(CPUS:%=obj/optics/goa_lanes/%.o)
+# The inner loops of lib/optics/series.h, for each processor.
+SERIES_OBJECTS = $(CPUS:%=obj/optics/series_lanes/%.o)
 MAN = $(wildcard man/*.[1-9])
 
 all: programs
@@ -64,6 +67,9 @@ $(CPUS:%=$(1)/obj/optics/mie_angles/%.o): $(1)/obj/optics/mie_angles/%.o: lib/op
 $(addprefix $(1)/,$(GOA_OBJECTS)): $(1)/obj/optics/goa_lanes/%.o: lib/optics/goa_lanes.c
 	@mkdir -p $$(@D)
 	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-O3) -fno-trapping-math -fcx-limited-range -fno-tree-slp-vectorize $$(LANES_$$*) -DGOA_LANES=goa_lanes_$$* -MMD -MP -c -o $$@ $$<
+$(addprefix $(1)/,$(SERIES_OBJECTS)): $(1)/obj/optics/series_lanes/%.o: lib/optics/series_lanes.c
+	@mkdir -p $$(@D)
+	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-O3) $$(filter -m%,$$(LANES_$$*)) -DKERNELS=series_$$* -MMD -MP -c -o $$@ $$<
 $(1)/obj/gen/%.o: $(B)/gen/%.c
 	@mkdir -p $$(@D)
 	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -c -o $$@ $$<

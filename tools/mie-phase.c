@@ -1,29 +1,94 @@
 /* mie-phase - scattering amplitudes and phase functions of spheres by Lorenz-Mie theory. */
+#include "base/cpu.h"
 #include "base/die.h"
-#include "optics/mie.h"
+#include "optics/mie_series.h"
 #include "pipe/phase.h"
 
 #include <math.h>
+#include <stdlib.h>
+
+#define TOLERANCE 1e-3    /* of the default grid; amplitudes are as good as they can be unless one is asked for */
+
+struct request {
+	int direct;           /* sums only */
+	double tolerance;     /* of amplitudes, 0: none */
+};
+
+/* One sphere: its series, or the coefficients for sums. */
+struct sphere {
+	struct phase_state state;
+	struct waves *w;
+	int n;
+	struct series *series;
+};
+
+static void sphere_close(struct phase_state *state)
+{
+	struct sphere *s = (struct sphere *)state;
+	series_free(s->series);
+	waves_drop(s->w);
+	free(s);
+}
+
+static struct phase_state *sphere_open(const void *context, struct waves *w, size_t angles)
+{
+	const struct request *r = context;
+	struct sphere *s = calloc(1, sizeof *s);
+	if (!s || waves_solve(w)) {
+		free(s);
+		return NULL;
+	}
+	struct efficiencies q = mie_efficiencies(w->size.x, w->lossless, w->n, w->a, w->b);
+	s->w = w;
+	s->state.q_sca = q.sca;
+	s->state.norm = M_PI * w->size.x * w->size.x * q.sca;    /* k^2 C_sca: p as the sums give it, not renormalised */
+	s->n = mie_enough(w->n, w->a, w->b, r->tolerance);
+	if (!r->direct && mie_series_pays(s->n, angles)) {
+		s->series = mie_series(s->n, w->a, w->b);
+		if (!s->series) {
+			free(s);
+			return NULL;
+		}
+		waves_drop(w);
+	}
+	return &s->state;
+}
+
+static int sphere_at(const struct phase_state *state, int n, const double *theta, double complex *s1, double complex *s2)
+{
+	const struct sphere *s = (const struct sphere *)state;
+	if (!s->series)
+		return mie_amplitudes(s->n, s->w->a, s->w->b, n, theta, s1, s2);
+	mie_series_at(s->series, n, theta, s1, s2);
+	return 0;
+}
+
+static const struct phase_profile profile = { sphere_open, sphere_at, sphere_close };
 
 static int model(const void *context, struct waves *w, int n, const double *theta, struct phase_result *out)
 {
-	(void)context;
-	if (waves_solve(w))
+	struct phase_state *s = sphere_open(context, w, (size_t)n);
+	if (!s)
 		return -1;
-	struct efficiencies q = mie_efficiencies(w->size.x, w->lossless, w->n, w->a, w->b);
-	out->q_sca = q.sca;
-	out->norm = M_PI * w->size.x * w->size.x * q.sca;    /* k^2 C_sca: p as the sums give it, not renormalised */
-	return mie_amplitudes(w->n, w->a, w->b, n, theta, out->s1, out->s2);
+	out->q_sca = s->q_sca;
+	out->norm = s->norm;
+	int failed = sphere_at(s, n, theta, out->s1, out->s2);
+	sphere_close(s);
+	return failed;
 }
 
 int main(int argc, char **argv)
 {
 	static struct sizes_options sizes = SIZES_INIT;    /* static: the lists in it live as long as the process */
-	static struct phase_options phase;
+	static struct phase_options phase = { .profile = &profile };
+	static struct request request;
 	const char *output = NULL;
+	double tolerance = NAN;
 	const struct opt opts[] = {
 		SIZES_OPTIONS(sizes),
 		PHASE_OPTIONS(phase),
+		{ "--tolerance", OPT_REAL, &tolerance, 1e-6, 0.1, "T", "error allowed to p, half the integral of |dp| over the sphere", 0 },
+		{ "--direct", OPT_FLAG, &request.direct, 0, 0, NULL, "sum the series at each angle, even where a transform is faster", 0 },
 		OPT_OUTPUT(&output),
 		OPT_END
 	};
@@ -32,8 +97,16 @@ int main(int argc, char **argv)
 	struct opt_line args = opt_parse(&tool, argc, argv);
 	if (args.n > 1)
 		die(args.operand[1], "one table at most");
+	cpu_level();               /* a processor that is none is an error before anything is read */
+	phase.tolerance = isnan(tolerance) ? TOLERANCE : tolerance;
+	/* Of the error asked for, a tenth is the amplitudes'; the grid has the rest. */
+	if (!isnan(tolerance)) {
+		request.tolerance = tolerance / 10;
+		phase.tolerance = tolerance - request.tolerance;
+	}
+	request.direct |= phase.theta.n > 0;
 	struct coeffs *in = coeffs_open(&sizes, args.n ? args.operand[0] : NULL);
-	phase_table(&phase, in, model, NULL, output, args.history);
+	phase_table(&phase, in, model, &request, output, args.history);
 	coeffs_close(in);
 	return 0;
 }

@@ -20,4 +20,15 @@ void angles_grid(double x, double *theta);
 /* angles_equal - n >= 2 equally spaced angles. */
 void angles_equal(int n, double *theta);
 
+/* angles_fine - number of angles of a fine grid, from 0 to 180 degrees, of which angles_thin may choose for spheres up to size
+ * parameter x: in the shortest period of interference, pi/x, several times the intervals that the tolerance needs there, four a degree at
+ * least, and finer towards the forward peak. theta[] may be NULL. */
+long angles_fine(double x, double tolerance, double *theta);
+
+/* angles_thin - as few angles of a fine grid as serve p[0 .. nwaves), phase functions on theta[n] (degrees) in sr^-1: between
+ * neighbours among those kept each p, taken as linear, is off in L1, half the integral of |p - linear| over the sphere, by no more
+ * than tolerance in all. The error is shared out equally among the intervals; none is longer than a degree. keep[] gets the indices, 0
+ * and n-1 among them; returns how many. Where the fine grid itself is too coarse it is kept whole. */
+long angles_thin(long n, const double *theta, int nwaves, double *const *p, double tolerance, long *keep);
+
 #endif

@@ -3,6 +3,7 @@
 #include "base/die.h"
 #include "optics/angles.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,11 +11,12 @@
 #define BATCH_WAVES 64            /* read together, at least; whole sizes */
 #define BATCH_TERMS 1000000       /* fewer where the coefficients read are many */
 #define CHUNK_ANGLES 500000       /* computed together, at most, but for one particle's */
+#define CHUNK_X 20000             /* adapted together: sum of size parameters, at most, but for one particle's */
+#define BLOCK 4096                /* angles of a row of waves, handed on together */
 
 struct batch {
 	struct waves *w;
-	double *x_grid;           /* the x whose grid serves: the largest of the size, over its wavelengths; so medium-bake can
-	                           * merge their tables */
+	double *x_grid;           /* the x whose grid serves where it depends on x: the largest of the size, over its wavelengths */
 	size_t n, room;
 };
 
@@ -89,21 +91,34 @@ static void put_rows(struct job *j, const struct waves *w, int n, const double *
 	}
 }
 
-static void add_mean(struct job *j, const struct waves *w, int n, const struct phase_result *r)
+/* The mean of a wavelength, begun where there is none. */
+static size_t mean_of(struct job *j, double wavelength)
 {
 	size_t at = 0;
-	while (at < j->nmean && fabs(j->mean[at].wavelength / w->size.wavelength - 1) > 1e-9)
+	while (at < j->nmean && fabs(j->mean[at].wavelength / wavelength - 1) > 1e-9)
 		at++;
 	if (at == j->nmean) {
 		j->mean = xgrow(j->mean, ++j->nmean, sizeof *j->mean);
-		j->mean[at] = (struct mean){ w->size.wavelength, 0, xalloc((size_t)n, sizeof(double)) };
+		j->mean[at] = (struct mean){ wavelength, 0, xalloc((size_t)j->n, sizeof(double)) };
 	}
-	double weight = w->size.carried[j->weight_col] * r->q_sca * w->size.radius * w->size.radius;
+	return at;
+}
+
+static double mean_weight(const struct job *j, const struct size *size, double q_sca)
+{
+	return size->carried[j->weight_col] * q_sca * size->radius * size->radius;
+}
+
+static void add_mean(struct job *j, const struct waves *w, int n, const struct phase_result *r)
+{
+	size_t at = mean_of(j, w->size.wavelength);
+	struct mean *mean = &j->mean[at];
+	double weight = mean_weight(j, &w->size, r->q_sca);
 	for (int i = 0; i < n; i++) {
 		double re1 = creal(r->s1[i]), im1 = cimag(r->s1[i]), re2 = creal(r->s2[i]), im2 = cimag(r->s2[i]);
-		j->mean[at].p[i] += weight * ((re1 * re1 + im1 * im1 + re2 * re2 + im2 * im2) / (2 * r->norm));
+		mean->p[i] += weight * ((re1 * re1 + im1 * im1 + re2 * re2 + im2 * im2) / (2 * r->norm));
 	}
-	j->mean[at].weight += weight;
+	mean->weight += weight;
 }
 
 static int count(const struct job *j, double x)
@@ -159,6 +174,131 @@ static void compute(struct job *j, const struct batch *b)
 	}
 }
 
+/* The rows of a size whose angles were found: amplitudes again, in blocks. */
+static void put_adapted(struct job *j, const struct adapted *a)
+{
+	const struct phase_profile *profile = j->o->profile;
+	double complex *s = xalloc(2 * BLOCK, sizeof *s);
+	for (size_t i = 0; i < a->nwaves; i++)
+		for (long from = 0; from < a->n; from += BLOCK) {
+			int count = a->n - from < BLOCK ? (int)(a->n - from) : BLOCK;
+			if (profile->at(a->state[i], count, a->theta + from, s, s + BLOCK))
+				die(NULL, "out of memory");
+			put_rows(j, &a->w[i], count, a->theta + from, &(struct phase_result){ s, s + BLOCK, a->state[i]->norm, a->state[i]->q_sca });
+		}
+	free(s);
+}
+
+/* A batch of whole sizes, each on angles of its own; in parallel where there are several. */
+static void compute_adapted(struct job *j, const struct batch *b)
+{
+	struct adapted *a = xalloc(b->n, sizeof *a);
+	for (size_t from = 0, to; from < b->n; from = to) {
+		size_t n = 0;
+		double x = 0;
+		int failed = 0;
+		for (to = from; to < b->n; to++) {
+			if (b->w[to].size.first || to == from) {
+				if (n && x > CHUNK_X)
+					break;
+				a[n++] = (struct adapted){ .w = &b->w[to] };
+			}
+			a[n - 1].nwaves++;
+			x += b->w[to].size.x;
+		}
+#pragma omp parallel for schedule(dynamic) reduction(|:failed) if (n > 1)
+		for (size_t i = 0; i < n; i++)
+			failed |= adapt(j->o->profile, j->context, j->o->tolerance, &a[i]) != 0;
+		if (failed)
+			die(NULL, "out of memory");
+		for (size_t i = 0; i < n; i++) {
+			put_adapted(j, &a[i]);
+			adapt_free(j->o->profile, &a[i]);
+		}
+	}
+	for (size_t i = 0; i < b->n; i++)
+		waves_free(&b->w[i]);
+	free(a);
+}
+
+/* Add waves[0 .. n) to their means on j->theta: blocks of angles in parallel, waves in order. */
+static void add_adapted(struct job *j, struct waves *w, size_t n)
+{
+	const struct phase_profile *profile = j->o->profile;
+	struct phase_state **state = xalloc(n, sizeof *state);
+	size_t *mean = xalloc(n, sizeof *mean);
+	double *weight = xalloc(n, sizeof *weight);
+	int failed = 0;
+#pragma omp parallel for schedule(dynamic) reduction(|:failed) if (n > 1)
+	for (size_t i = 0; i < n; i++)
+		failed |= !(state[i] = profile->open(j->context, &w[i], (size_t)j->n));
+	if (failed)
+		die(NULL, "out of memory");
+	for (size_t i = 0; i < n; i++) {
+		mean[i] = mean_of(j, w[i].size.wavelength);
+		j->mean[mean[i]].weight += weight[i] = mean_weight(j, &w[i].size, state[i]->q_sca);
+	}
+#pragma omp parallel for schedule(dynamic) reduction(|:failed)
+	for (int from = 0; from < j->n; from += BLOCK) {
+		int count = j->n - from < BLOCK ? j->n - from : BLOCK;
+		double p[BLOCK];
+		for (size_t i = 0; i < n; i++) {
+			failed |= adapt_p(profile, state[i], count, j->theta + from, p);
+			for (int k = 0; !failed && k < count; k++)
+				j->mean[mean[i]].p[from + k] += weight[i] * p[k];
+		}
+	}
+	if (failed)
+		die(NULL, "out of memory");
+	for (size_t i = 0; i < n; i++) {
+		profile->close(state[i]);
+		waves_free(&w[i]);
+	}
+	free(state);
+	free(mean);
+	free(weight);
+}
+
+static void average_adapted(struct job *j, const struct batch *b, double x)
+{
+	long n = angles_fine(x, j->o->tolerance, NULL);
+	if (n > INT_MAX)
+		die(NULL, "size parameter %g wants too many angles", x);
+	j->n = (int)n;
+	j->theta = xgrow(j->theta, (size_t)n, sizeof *j->theta);
+	angles_fine(x, j->o->tolerance, j->theta);
+	for (size_t from = 0, to; from < b->n; from = to) {
+		double sum = 0;
+		for (to = from; to < b->n && (to == from || sum + b->w[to].size.x <= CHUNK_X); to++)
+			sum += b->w[to].size.x;
+		add_adapted(j, b->w + from, to - from);
+	}
+}
+
+/* Leave those of the means' angles that serve them all. */
+static void thin_means(struct job *j)
+{
+	double **p = xalloc(j->nmean, sizeof *p);
+	long *keep = xalloc((size_t)j->n, sizeof *keep);
+	for (size_t m = 0; m < j->nmean; m++) {
+		p[m] = j->mean[m].p;
+		for (int i = 0; i < j->n; i++)
+			p[m][i] /= j->mean[m].weight;
+		j->mean[m].weight = 1;
+	}
+	long n = angles_thin(j->n, j->theta, (int)j->nmean, p, j->o->tolerance, keep);
+	if (n < 0)
+		die(NULL, "out of memory");
+	for (long i = 0; i < n; i++) {
+		j->theta[i] = j->theta[keep[i]];
+		for (size_t m = 0; m < j->nmean; m++)
+			p[m][i] = p[m][keep[i]];
+	}
+	j->n = (int)n;
+	free(p);
+	free(keep);
+}
+
 static int ascending(const void *a, const void *b)
 {
 	double x = *(const double *)a, y = *(const double *)b;
@@ -202,7 +342,10 @@ static void each(struct job *j, const char *output, const char *command)
 	gather(j, &b, &next, &more, 0);
 	j->out = tab_create(output, coeffs_history(j->in), command, k + 6 + j->ncarried, cols);
 	for (; b.n; gather(j, &b, &next, &more, 0))
-		compute(j, &b);
+		if (j->n || !j->o->profile)
+			compute(j, &b);
+		else
+			compute_adapted(j, &b);
 	tab_finish(j->out);
 	free(b.w);
 	free(b.x_grid);
@@ -224,18 +367,24 @@ static void average(struct job *j, const char *output, const char *command)
 		j->weight_col++;
 	int more = coeffs_next(j->in, &next);
 	gather(j, &b, &next, &more, 1);
-	if (!j->n) {
-		double x = 0;
-		for (size_t i = 0; i < b.n; i++)
-			x = fmax(x, b.x_grid[i]);
+	double x = 0;
+	for (size_t i = 0; i < b.n; i++)
+		x = fmax(x, b.x_grid[i]);
+	int adapted = !j->n && j->o->profile;
+	if (adapted) {
+		average_adapted(j, &b, x);
+	} else if (!j->n) {
 		j->n = angles_count(x);
 		j->theta = xgrow(j->theta, (size_t)j->n, sizeof *j->theta);
 		angles_grid(x, j->theta);
 	}
-	compute(j, &b);
+	if (!adapted)
+		compute(j, &b);
 	for (size_t m = 0; m < j->nmean; m++)
 		if (!(j->mean[m].weight > 0))
 			die(tab_path(coeffs_table(j->in)), "all weights are 0");
+	if (adapted)
+		thin_means(j);
 	j->out = tab_create(output, coeffs_history(j->in), command, 3, cols);
 	for (size_t m = 0; m < j->nmean; m++) {
 		for (int i = 0; i < j->n; i++)

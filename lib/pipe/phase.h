@@ -2,13 +2,15 @@
 #ifndef PIPE_PHASE_H
 #define PIPE_PHASE_H
 
-#include "pipe/coeffs.h"
+#include "pipe/adapt.h"
 
 /* The options as given; zero-initialised. */
 struct phase_options {
 	struct reals theta;      /* degrees */
-	long long angles;        /* 0: the default grid (optics/angles.h) */
+	long long angles;        /* 0: the default grid */
 	int average;
+	const struct phase_profile *profile;    /* of the model: the default grid then follows p. NULL: it depends on x alone */
+	double tolerance;                       /* in L1 of p, taken as linear between the angles of that grid */
 };
 
 /* Rows for the option table. */

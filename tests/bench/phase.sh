@@ -38,7 +38,7 @@ error() {
 			d = p[i] + (p[i + 1] - p[i]) * ($1 - t[i]) / (t[i + 1] - t[i]) - $2
 			sum += (d < 0 ? -d : d) * sin($1 * pi / 180)
 		}
-		BEGIN { pi = atan2(0, -1) }
+		BEGIN { pi = atan2(0, -1); i = 0 }
 		END { printf "%.3g\n", pi * sum * pi / steps }' table.txt fine.txt
 }
 

@@ -1,0 +1,52 @@
+#include "base/cpu.h"
+#include "optics/series_kernels.h"
+
+#include <stdlib.h>
+
+static const struct series_kernels *kernels(void)
+{
+	const struct series_kernels *const build[] = { &series_scalar,
+#ifdef __x86_64__
+		&series_v2, &series_v3, &series_v4
+#endif
+	};
+	return build[cpu_level()];
+}
+
+/* The shortest grid with a length that the transform likes: 16 2^a or 16 3 2^a, at least twice the highest order. */
+static int steps_for(int n)
+{
+	int two = 32, three = 48;
+	while (two < 2 * n)
+		two *= 2;
+	while (three < 2 * n)
+		three *= 2;
+	return two < three ? two : three;
+}
+
+struct series *series_new(int n, double (*c)[SERIES])
+{
+	struct series *s = malloc(sizeof *s);
+	if (!s)
+		return NULL;
+	s->kernels = kernels();
+	s->steps = steps_for(n);
+	s->grid = malloc(((size_t)s->steps + 2 * SERIES_PAD) * SERIES * sizeof *s->grid);
+	if (!s->grid || s->kernels->prepare(s, n, c)) {
+		series_free(s);
+		return NULL;
+	}
+	return s;
+}
+
+void series_at(const struct series *s, int count, const double *theta, double (*values)[SERIES])
+{
+	s->kernels->at(s, count, theta, values);
+}
+
+void series_free(struct series *s)
+{
+	if (s)
+		free(s->grid);
+	free(s);
+}

@@ -1,0 +1,114 @@
+#!/bin/sh
+# mie-phase: all angles at once against the direct sum, the angles it chooses, and what it refuses.
+# shellcheck source=tests/lib.sh
+. "$(dirname "$0")/lib.sh"
+plan 25
+cd "$tmp" || exit 2
+
+# apart A B: the largest difference of amplitudes, in units of the largest amplitude in A.
+apart() {
+	tabtxt --columns s1_re,s1_im,s2_re,s2_im "$1" >apart.a
+	tabtxt --columns s1_re,s1_im,s2_re,s2_im "$2" | paste apart.a - | awk '
+		NR > 1 {
+			for (i = 1; i <= 4; i++) {
+				d = $i - $(i + 4); s = $i
+				if (d < 0) d = -d; if (s < 0) s = -s
+				if (d > worst) worst = d; if (s > top) top = s
+			}
+		}
+		END { print (NR > 1 && top > 0 ? worst / top : 99) }'
+}
+within() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a <= b) }'; }
+
+# error TABLE FINE: half the integral of |p - fine| over the sphere, p linear between its angles; fine in equal steps.
+error() {
+	tabtxt --columns theta,p "$1" >error.table
+	tabtxt --columns theta,p "$2" >error.fine
+	awk '
+		FILENAME == "error.table" { if (FNR > 1) { t[n] = $1; p[n++] = $2 }; next }
+		FNR > 1 {
+			while (i + 2 < n && t[i + 1] < $1) i++
+			d = p[i] + (p[i + 1] - p[i]) * ($1 - t[i]) / (t[i + 1] - t[i]) - $2
+			sum += (d < 0 ? -d : d) * sin($1 * pi / 180)
+			steps = FNR - 2
+		}
+		BEGIN { pi = atan2(0, -1); i = 0 }
+		END { printf "%.6g\n", pi * sum * pi / steps }' error.table error.fine
+}
+rows() { tabtxt --columns theta "$1" | sed 1d | wc -l; }
+
+# Both ways give the same, which way being a matter of time alone.
+for m in 1.33 1.5+0.1i 0.75; do
+	mie-phase --particle $m --size-parameter 2000.3 --angles 9001 -o fast.tab
+	mie-phase --particle $m --size-parameter 2000.3 --angles 9001 --direct -o direct.tab
+	e=$(apart direct.tab fast.tab)
+	within "$e" 1e-12
+	ok $? "m = $m: all angles at once and the direct sum differ by $e"
+	awk -v a="$e" 'BEGIN { exit !(a > 0) }'
+	ok $? 'and are two ways indeed'
+done
+mie-phase --particle 1.33 --size-parameter 2000.3 --theta 0:180:0.02 -o list.tab
+mie-phase --particle 1.33 --size-parameter 2000.3 --theta 0:180:0.02 --direct -o summed.tab
+tabtxt list.tab >a
+tabtxt summed.tab | cmp -s - a
+ok $? 'a list of angles is always summed'
+mie-coeffs --particle 1.33 --size-parameter 2000.3 | mie-phase --angles 9001 -o streamed.tab
+mie-phase --particle 1.33 --size-parameter 2000.3 --angles 9001 | tabtxt >a
+tabtxt streamed.tab >b
+cmp -s a b
+ok $? 'from coefficients, too'
+mie-phase --particle 1.33 --size-parameter 3000 --angles 40001 --threads 1 | cksum >one
+mie-phase --particle 1.33 --size-parameter 3000 --angles 40001 --threads 3 | cksum >three
+is "$(cat one)" "$(cat three)" 'the same bytes with 1 and 3 threads'
+MOTES_CPU=scalar mie-phase --particle 1.33 --size-parameter 3000 --angles 40001 | tabtxt --columns s1_re,s2_im,p | head -5000 | cksum >a
+mie-phase --particle 1.33 --size-parameter 3000 --angles 40001 | tabtxt --columns s1_re,s2_im,p | head -5000 | cksum >b
+is "$(cat a)" "$(cat b)" 'and on every processor'
+
+# The default angles: p is linear between them within the tolerance, with few of them.
+while read -r m x most; do
+	mie-phase --particle "$m" --size-parameter "$x" -o default.tab
+	steps=$(awk -v x="$x" 'BEGIN { print int(60 * x + 4000) }')
+	mie-phase --particle "$m" --size-parameter "$x" --angles $((steps + 1)) -o fine.tab
+	e=$(error default.tab fine.tab)
+	within "$e" 0.001005 && [ "$(rows default.tab)" -le "$most" ]
+	ok $? "x = $x, m = $m: $(rows default.tab) angles, at most $most, error $e"
+done <<END
+1.33 1e-3 181
+1.5 10 260
+1.33 300.49 2700
+1.33 1000.49 7700
+1.5+0.1i 1000.49 700
+END
+for t in 1e-2 1e-4; do
+	mie-phase --particle 1.33 --size-parameter 100.49 --tolerance $t -o default.tab
+	mie-phase --particle 1.33 --size-parameter 100.49 --angles 20001 --direct -o fine.tab
+	e=$(error default.tab fine.tab)
+	within "$e" $t
+	ok $? "--tolerance $t: $(rows default.tab) angles, error $e"
+	rows default.tab >rows.$t
+done
+[ "$(cat rows.1e-2)" -lt "$(cat rows.1e-4)" ]
+ok $? 'and a looser one takes fewer'
+
+# The mean over sizes has angles of its own.
+psd lognormal --median 3um --gsd 1.2 --classes 12 -o sizes.psd
+mie-phase --particle 1.33 --wavelength 500nm --average sizes.psd -o mean.tab
+mie-phase --particle 1.33 --wavelength 500nm --average --angles 8001 sizes.psd -o fine.tab
+e=$(error mean.tab fine.tab)
+within "$e" 0.001005 && [ "$(rows mean.tab)" -lt 700 ]
+ok $? "--average: $(rows mean.tab) angles, error $e"
+mie-phase --particle 1.33 --wavelength 450nm,650nm --average sizes.psd | tabtxt --columns wavelength,theta >out
+is 1 "$(awk 'NR > 1 { a[$1] = a[$1] " " $2 } END { for (w in a) print a[w] }' out | uniq | wc -l)" 'one grid for all wavelengths of a mean'
+for n in 1 3; do mie-phase --particle 1.33 --wavelength 450nm,650nm --average --threads $n sizes.psd | cksum >threads.$n; done
+is "$(cat threads.1)" "$(cat threads.3)" 'the mean: the same bytes with 1 and 3 threads'
+for n in 1 3; do mie-phase --particle 1.33 --wavelength 450nm,650nm --threads $n sizes.psd | cksum >threads.$n; done
+is "$(cat threads.1)" "$(cat threads.3)" 'and size by size'
+
+# medium-bake takes what comes.
+xsect --particle 1.33 --wavelength 450nm,650nm sizes.psd -o sizes.xsect
+mie-phase --particle 1.33 --wavelength 450nm,650nm sizes.psd -o sizes.phase
+medium-bake --xsect sizes.xsect --phase sizes.phase --psd sizes.psd --concentration 1e6/m3 --box 1m,1m,1m -o out.medium
+ok $? 'a medium of these tables'
+
+refused 'a processor that does not exist' "MOTES_CPU: 'v9' is none of" env MOTES_CPU=v9 mie-phase --particle 1.33 --size-parameter 10
+refused 'a tolerance out of reach' '--tolerance: .*1e-06.*0.1' mie-phase --particle 1.33 --size-parameter 10 --tolerance 1e-9
