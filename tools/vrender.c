@@ -41,21 +41,22 @@ static double next_batch(double paths, double seconds, int whole, double *slowes
 	return fmin(2 * paths, BATCH_SECONDS * *slowest);
 }
 
-/* Samples [from, to), in batches of some samples of some pixels; the C backend, which a signal ends at any time, takes all pixels. */
+/* Samples [from, to), in batches of some samples of some pixels. The C backend, which a signal ends at any time, takes all samples of a
+ * pixel while what it sees of the medium is in the cache, and all pixels at once where nobody looks. */
 static void render(struct job *j, struct cl *cl, uint32 from, uint32 to, int threads)
 {
 	const uint32 pixels = (uint32)(j->scene.width * j->scene.height);
 	int visible = isatty(STDERR_FILENO);
 	double start = now(), shown = start, slowest = INFINITY, batch = FIRST_PATHS;
 	for (uint32 sample = from, n; sample < to; sample += n) {
-		n = sample == from ? 1 : (uint32)fmin(fmax(1, batch / pixels), to - sample);
+		n = !cl ? to - from : sample == from ? 1 : (uint32)fmin(fmax(1, batch / pixels), to - sample);
 		for (uint32 pixel = 0, part; pixel < pixels; pixel += part) {
-			double before = now(), most = sample == from ? fmin(batch, pixels / FIRST_PARTS) : batch / n;
-			part = cl ? (uint32)fmin(fmax(1, most), pixels - pixel) : pixels;
+			double before = now(), most = cl && sample == from ? fmin(batch, pixels / FIRST_PARTS) : batch / n;
+			part = cl || visible ? (uint32)fmin(fmax(1, most), pixels - pixel) : pixels;
 			if (cl)
 				cl_render(cl, pixel, part, sample, n);
 			else
-				render_c(j, sample, n, threads);
+				render_c(j, pixel, part, sample, n, threads);
 			double after = now();
 			batch = next_batch((double)part * n, after - before, part == pixels, &slowest);
 			int last = pixel + part == pixels && sample + n == to;

@@ -3,7 +3,8 @@
 #include "render/job.h"
 #include "render/lanes.h"
 
-#define CHUNK 256              /* pixels that a thread takes at a time */
+#define CHUNK 256              /* pixels that a thread takes at a time, or fewer, */
+#define CHUNK_PATHS 16384      /* of about so many paths */
 
 #define BUILDS_OF(cpu, transport) { { render_##cpu##_##transport##_0, render_##cpu##_##transport##_1, render_##cpu##_##transport##_3 }, \
 	{ render_##cpu##_##transport##_0, render_##cpu##_##transport##_1p, render_##cpu##_##transport##_3p } }
@@ -19,13 +20,13 @@ static render_fn *build_for(const struct scene *s)
 	return build[cpu_level()][s->transport][s->peak > 0][s->n_waves == 1 ? 1 : s->n_waves == 3 ? 2 : 0];
 }
 
-void render_c(struct job *j, uint32 first, uint32 n, int threads)
+void render_c(struct job *j, uint32 pixel, uint32 pixels, uint32 first, uint32 n, int threads)
 {
 	render_fn *render = build_for(&j->scene);
-	uint32 pixels = (uint32)(j->scene.width * j->scene.height);
+	uint32 end = pixel + pixels, chunk = n < CHUNK_PATHS / CHUNK ? CHUNK : CHUNK_PATHS / n + 1;
 	int overflow = 0;
 #pragma omp parallel for num_threads(threads) schedule(dynamic) reduction(| : overflow)
-	for (uint32 from = 0; from < pixels; from += CHUNK)
-		render(&j->scene, &j->tables, j->film, &overflow, from, pixels - from < CHUNK ? pixels : from + CHUNK, first, first + n);
+	for (uint32 from = pixel; from < end; from += chunk)
+		render(&j->scene, &j->tables, j->film, &overflow, from, end - from < chunk ? end : from + chunk, first, first + n);
 	j->overflow |= overflow;
 }

@@ -36,10 +36,10 @@ void job_finish(struct job *j);
 
 void job_free(struct job *j);
 
-/* render_c - add samples [first, first + n) of every pixel to the film, by the C build of the kernels for this processor: the widest
+/* render_c - add samples [first, first + n) of pixels [pixel, pixel + pixels) to the film, by the C build of the kernels for this processor: the widest
  * lanes that it has, unless MOTES_CPU in the environment asks for scalar, v2, v3 or v4. Dies where that is none of them, or more than
  * the processor has. The film does not depend on it. */
-void render_c(struct job *j, uint32 first, uint32 n, int threads);
+void render_c(struct job *j, uint32 pixel, uint32 pixels, uint32 first, uint32 n, int threads);
 
 /* The same by OpenCL, whose device holds the tables and the film meanwhile. Each dies with one line on any failure. */
 struct cl;

@@ -169,7 +169,7 @@ FN uint64 high_product(uint64 a, uint64 b) { return (uint64)((unsigned __int128)
 typedef float fv;
 typedef int32_t iv, mv;
 typedef uint32_t uv;
-#define LANE(v, i) (v)
+#define LANE(v, i) (*((void)(i), &(v)))
 #define FV(x) ((float)(x))
 #define IV(x) ((int32_t)(x))
 #define UV(x) ((uint32_t)(x))
