@@ -100,7 +100,8 @@ tool() {
 timed() {
 	who=$1
 	shift
-	timeout 30 "$python" "$bench/mie_peers.py" "$who" time "$@" 2>>err
+	timeout 30 "$python" "$bench/mie_peers.py" "$who" time "$@" 2>>err ||
+		{ echo "bench: mie: $who at x = $3: no time, it failed or took more than half a minute" >&2; return 1; }
 }
 line() { printf '%s\t%s\t%s\t%s\t%s\t%s\n' "$1" "$2" "$3" "$4" "$5" "$(awk -v a="$6" -v b="$5" 'BEGIN { printf "%.3g", a / b }')"; }
 per() { awk -v s="$1" -v n="$2" -v t="$3" 'BEGIN { printf "%.4g\n", s * 1e9 / n / t }'; }
@@ -218,7 +219,7 @@ unset multiplot
 EOT
 for kind in 'png pngcairo' 'svg svg'; do
 	gnuplot -e "set terminal ${kind#* } size 1600,560 font 'sans,11' background '#ffffff'; set output 'mie.${kind% *}'; \
-		CODES = '$(echo motes textbook $peers)'" mie.gp
+		CODES = 'motes textbook $(echo "$peers" | paste -sd' ' -)'" mie.gp
 done
 cp mie.png mie.svg "$out"
 exit $failed
