@@ -115,12 +115,17 @@ demo: programs
 
 # Charts of error against time, in $(B)/bench: of all, and, with Mitsuba 3 from PyPI where it can be had, of the renderer's speed.
 RENDER_BENCHES = render lanes particles
-BENCHES = $(filter-out $(RENDER_BENCHES),$(patsubst tests/bench/%.sh,%,$(wildcard tests/bench/*.sh)))
+MIE_BENCHES = mie
+BENCHES = $(filter-out $(RENDER_BENCHES) $(MIE_BENCHES),$(patsubst tests/bench/%.sh,%,$(wildcard tests/bench/*.sh)))
 bench: programs $(CHECKS:%=$(B)/tests/%)
 	PATH="$(CURDIR)/$(B)/bin:$$PATH" MOTES_TESTS="$(CURDIR)/$(B)/tests" sh tests/bench/run $(B)/bench $(BENCHES)
 bench-render: programs
 	sh tests/bench/mitsuba-venv $(B)/mitsuba-venv
 	PATH="$(CURDIR)/$(B)/bin:$$PATH" MOTES_MITSUBA="$(CURDIR)/$(B)/mitsuba-venv" sh tests/bench/run $(B)/bench $(RENDER_BENCHES)
+# Lorenz-Mie theory beside the codes that PyPI has, and beside a textbook's loop.
+bench-mie: programs
+	sh tests/bench/mie-venv $(B)/mie-venv
+	PATH="$(CURDIR)/$(B)/bin:$$PATH" CC="$(CC)" MOTES_PEERS="$(CURDIR)/$(B)/mie-venv" sh tests/bench/run $(B)/bench $(MIE_BENCHES)
 
 install: programs
 	install -d $(DESTDIR)$(PREFIX)/bin
@@ -131,7 +136,7 @@ install: programs
 clean:
 	rm -rf $(B)
 
-.PHONY: all programs asan-programs deps check asan demo bench bench-render install clean
+.PHONY: all programs asan-programs deps check asan demo bench bench-render bench-mie install clean
 .SECONDARY:
 ifneq ($(filter deps,$(MAKECMDGOALS)),)
 .NOTPARALLEL:

@@ -23,7 +23,7 @@ static void *room(size_t n, size_t size)
 static void reference(const struct waves *w, double theta, double complex s[2])
 {
 	int behind = theta > 90;
-	long double h = sinl((behind ? 180 - (long double)theta : (long double)theta) * 3.14159265358979323846264338327950288L / 360);
+	long double t = behind ? 180 - (long double)theta : theta, h = sinl(t * 3.14159265358979323846264338327950288L / 360);
 	long double c = 2 * h * h, p = 1, v = 1, sum[4] = { 0 };
 	for (int l = 1; l <= w->n; l++) {
 		long double k = l, f = (2 * k + 1) / (k * (k + 1)), plus = (k + 1) * v - k * c * p, minus = 2 * p - plus;
@@ -63,8 +63,9 @@ static int angles_to_try(double x, double *theta)
 static void accuracy(void)
 {
 	static const struct { double x; double complex m; } at[] = {
-		{ 1e-3, 1.5 }, { 0.7, 10 }, { 3, 1.33 }, { 20.3, 0.75 }, { 57, 1.5 + 0.1 * I }, { 96.903239374958, 1.33 }, { 333.3, 1.0001 },
-		{ 1000.5, 1.33 }, { 1001, 3 + 2 * I }, { 4000.1, 1.5 + 1e-5 * I }, { 2e4, 1.33 }, { 2e4, 1.01 + 0.01 * I }, { 3e4, 1.5 + 0.1 * I }, { 1e5, 1.33 },
+		{ 1e-3, 1.5 }, { 0.7, 10 }, { 3, 1.33 }, { 20.3, 0.75 }, { 57, 1.5 + 0.1 * I }, { 96.903239374958, 1.33 },
+		{ 333.3, 1.0001 }, { 1000.5, 1.33 }, { 1001, 3 + 2 * I }, { 4000.1, 1.5 + 1e-5 * I }, { 2e4, 1.33 },
+		{ 2e4, 1.01 + 0.01 * I }, { 3e4, 1.5 + 0.1 * I }, { 1e5, 1.33 },
 	};
 	double forward = 0, local = 0, sum = 0;
 	for (size_t k = 0; k < sizeof at / sizeof *at; k++) {
@@ -167,8 +168,8 @@ static void independence(void)
 	ok(alone, "an angle alone and among others");
 }
 
-/* Integral of f over the sphere by the rule of Clenshaw and Curtis on equal angles, exact for polynomials in cos theta of degree <= steps,
- * 8 2^a. The weights are the cosine transform of the integrals of cos(k t) sin t, 2/(1 - k^2) for even k. */
+/* Integral of f over the sphere by the rule of Clenshaw and Curtis on equal angles, exact for polynomials in cos theta of degree
+ * <= steps, 8 2^a. The weights are the cosine transform of the integrals of cos(k t) sin t, 2/(1 - k^2) for even k. */
 static double sphere(int steps, double (*f)(void *, double), void *context)
 {
 	size_t n = 2 * (size_t)steps;
@@ -231,8 +232,9 @@ static void normalisation(void)
 static void thinning(void)
 {
 	static const struct { double x; double complex m; double tolerance, most; } at[] = {
-		{ 1e-3, 1.5, 1e-3, 181 }, { 1, 1.33, 1e-3, 190 }, { 30, 1.5, 1e-3, 500 }, { 100.3, 1.33, 1e-3, 1100 }, { 100.3, 1.33, 1e-2, 400 },
-		{ 100.3, 1.33, 1e-5, 11500 }, { 1000.49, 1.33, 1e-3, 7700 }, { 1000.49, 1.5 + 0.1 * I, 1e-3, 700 }, { 1e4, 1.33, 1e-3, 65000 }, { 3e4, 0.75, 1e-3, 125000 },
+		{ 1e-3, 1.5, 1e-3, 181 }, { 1, 1.33, 1e-3, 190 }, { 30, 1.5, 1e-3, 500 }, { 100.3, 1.33, 1e-3, 1100 },
+		{ 100.3, 1.33, 1e-2, 400 }, { 100.3, 1.33, 1e-5, 11500 }, { 1000.49, 1.33, 1e-3, 7700 },
+		{ 1000.49, 1.5 + 0.1 * I, 1e-3, 700 }, { 1e4, 1.33, 1e-3, 65000 }, { 3e4, 0.75, 1e-3, 125000 },
 	};
 	double over = 0, many = 0, under = 1;
 	for (size_t k = 0; k < sizeof at / sizeof *at; k++) {
@@ -252,9 +254,11 @@ static void thinning(void)
 			while (theta[keep[j + 1]] < t)
 				j++;
 			double f = (t - theta[keep[j]]) / (theta[keep[j + 1]] - theta[keep[j]]);
-			error += M_PI * sin(t * M_PI / 180) * M_PI / steps * fabs(p_at(&s, t) - (1 - f) * p[keep[j]] - f * p[keep[j + 1]]);
+			double off = p_at(&s, t) - (1 - f) * p[keep[j]] - f * p[keep[j + 1]];
+			error += M_PI * sin(t * M_PI / 180) * M_PI / steps * fabs(off);
 		}
-		printf("# x = %g, m = %g+%gi, tolerance %g: %ld angles, off by %.3g\n", at[k].x, creal(at[k].m), cimag(at[k].m), at[k].tolerance, kept, error);
+		printf("# x = %g, m = %g+%gi, tolerance %g: %ld angles, off by %.3g\n", at[k].x, creal(at[k].m), cimag(at[k].m),
+		       at[k].tolerance, kept, error);
 		over = fmax(over, error / at[k].tolerance);
 		many = fmax(many, kept / at[k].most);
 		under = fmin(under, good);

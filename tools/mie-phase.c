@@ -87,8 +87,8 @@ int main(int argc, char **argv)
 	const struct opt opts[] = {
 		SIZES_OPTIONS(sizes),
 		PHASE_OPTIONS(phase),
-		{ "--tolerance", OPT_REAL, &tolerance, 1e-6, 0.1, "T", "error allowed to p, half the integral of |dp| over the sphere", 0 },
-		{ "--direct", OPT_FLAG, &request.direct, 0, 0, NULL, "sum the series at each angle, even where a transform is faster", 0 },
+		{ "--tolerance", OPT_REAL, &tolerance, 1e-6, 0.1, "T", "error allowed to p: half the integral of |dp|", 0 },
+		{ "--direct", OPT_FLAG, &request.direct, 0, 0, NULL, "sum angle by angle, even where a transform is faster", 0 },
 		OPT_OUTPUT(&output),
 		OPT_END
 	};

@@ -168,8 +168,8 @@ long angles_thin(long n, const double *theta, int nwaves, double *const *p, doub
 	t.ring = room;
 	t.within = room + n;
 	measure(&t);
-	/* An interval of length H has the error c H^3 = share; were it so all along, there would be sum r^(1/3) / share^(1/3) of them, r
-	 * the errors of the fine grid's intervals. Then by what it comes to. */
+	/* An interval of length H has the error c H^3 = share; were it so all along, there would be sum r^(1/3) / share^(1/3) of
+	 * them, r the errors of the fine grid's intervals. Then by what it comes to. */
 	double sum = 0, error, share, best = 0;
 	for (int w = 0; w < nwaves; w++) {
 		double one = 0;

@@ -1,4 +1,5 @@
-/* mie_series - the amplitudes of Lorenz-Mie theory at many angles in O(n log n + angles), beside the sums of mie.h in O(n angles). */
+/* mie_series - the amplitudes of Lorenz-Mie theory at many angles in O(n log n + angles), beside the sums of mie.h,
+ * which take O(n angles). */
 #ifndef OPTICS_MIE_SERIES_H
 #define OPTICS_MIE_SERIES_H
 
@@ -20,8 +21,9 @@ void mie_series_at(const struct series *s, int ntheta, const double *theta, doub
 /* mie_series_pays - whether a series is expected to take less time than mie_amplitudes. */
 int mie_series_pays(int n, size_t ntheta);
 
-/* mie_enough - how many of n terms are enough for p within tolerance in L1 (half the integral of |dp| over the sphere): by Schwarz's
- * inequality no more than the root of the share that the others have in scattering, to first order. n where tolerance is 0. */
+/* mie_enough - how many of n terms are enough for p within tolerance in L1 (half the integral of |dp| over the sphere): by
+ * Schwarz's inequality no more than the root of the share that the others have in scattering, to first order. n where tolerance
+ * is 0. */
 int mie_enough(int n, const double complex *a, const double complex *b, double tolerance);
 
 #endif

@@ -5,15 +5,16 @@
 #include "optics/kern/legendre.h"
 #include "optics/kern/window.h"
 
-/* Cosines, each divided by the window's transform, to values on the grid. A sum of cosines at half-steps is a complex transform of the
- * same length of V_k = exp(i pi k/2M) (c_k - i c_{M-k})/2, whose first half are the even points and whose second the odd ones, from
- * the end (Makhoul 1980). re[0] and im[0] are zero. */
+/* Cosines, each divided by the window's transform, to values on the grid. A sum of cosines at half-steps is a complex transform
+ * of the same length of V_k = exp(i pi k/2M) (c_k - i c_{M-k})/2, whose first half are the even points and whose second the odd
+ * ones, from the end (Makhoul 1980). re[0] and im[0] are zero. */
 static void cosines_to_grid(struct series *s, int n, const double *c, double b, double *wave, double *re[2], double *im[2])
 {
 	int steps = s->steps;
 	fourier_waves(steps, wave);
 	for (int k = 0; k <= n; k++) {
-		double a = M_PI * k / (2.0 * steps), h = (k ? 0.5 : 1) / window_transform(b, k / (2.0 * steps)), u = h * cos(a), v = h * sin(a);
+		double a = M_PI * k / (2.0 * steps), h = (k ? 0.5 : 1) / window_transform(b, k / (2.0 * steps));
+		double u = h * cos(a), v = h * sin(a);
 		for (int i = 0; i < 2; i++) {
 			double x = c[4 * k + 2 * i], y = c[4 * k + 2 * i + 1];
 			re[0][2 * k + i] = u * x - v * y;

@@ -10,8 +10,8 @@ struct phase_state {
 	double q_sca;                /* scattering efficiency */
 };
 
-/* A model that can be asked again and again for angles of one particle. Several threads use it at once, each with waves and a state
- * of its own. */
+/* A model that can be asked again and again for angles of one particle. Several threads use it at once, each with waves and a
+ * state of its own. */
 struct phase_profile {
 	/* open - get ready for some so many angles; may drop the coefficients of w, which has to stay. NULL when memory ran out. */
 	struct phase_state *(*open)(const void *context, struct waves *w, size_t angles);

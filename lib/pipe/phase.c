@@ -184,7 +184,8 @@ static void put_adapted(struct job *j, const struct adapted *a)
 			int count = a->n - from < BLOCK ? (int)(a->n - from) : BLOCK;
 			if (profile->at(a->state[i], count, a->theta + from, s, s + BLOCK))
 				die(NULL, "out of memory");
-			put_rows(j, &a->w[i], count, a->theta + from, &(struct phase_result){ s, s + BLOCK, a->state[i]->norm, a->state[i]->q_sca });
+			struct phase_result r = { s, s + BLOCK, a->state[i]->norm, a->state[i]->q_sca };
+			put_rows(j, &a->w[i], count, a->theta + from, &r);
 		}
 	free(s);
 }

@@ -11,7 +11,8 @@ struct complex_wide {
 	wide re, im;
 };
 
-/* fourier_waves - wave[k] = exp(2 pi i k / n) in pairs, n a multiple of 8; from the first octant, where arguments are least off. */
+/* fourier_waves - wave[k] = exp(2 pi i k / n) in pairs, n a multiple of 8; by the first octant, where
+ * arguments are least off. */
 static void fourier_waves(int n, double *wave)
 {
 	int quarter = n / 4;
@@ -24,6 +25,11 @@ static void fourier_waves(int n, double *wave)
 		wave[2 * k] = -wave[2 * (k - quarter) + 1];
 		wave[2 * k + 1] = wave[2 * (k - quarter)];
 	}
+}
+
+static inline struct complex_wide load(const double *re, const double *im, long at)
+{
+	return (struct complex_wide){ wide_load(re + at), wide_load(im + at) };
 }
 
 static inline struct complex_wide turn(struct complex_wide a, wide c, wide s)    /* a (c + i s) */
@@ -50,7 +56,7 @@ static void fourier_first(int n, const double *wave, const double *re, const dou
 		struct complex_wide a[4], b[4];
 		double c[8], s[8], x[8], y[8];
 		for (int k = 0; k < 4; k++)
-			a[k] = (struct complex_wide){ wide_load(re + 2 * (p + k * m)), wide_load(im + 2 * (p + k * m)) };
+			a[k] = load(re, im, 2 * (p + (long)k * m));
 		butterfly(a, b);
 		for (int k = 0; k < 4; k++) {
 			for (int i = 0; i < 4; i++) {
@@ -69,15 +75,15 @@ static void fourier_first(int n, const double *wave, const double *re, const dou
 }
 
 /* A later stage: n points of radix r in rows of s, wave[] in steps of step. */
-static inline void fourier_stage(int r, int n, int s, int step, const double *wave, const double *re, const double *im, double *to_re,
-                                 double *to_im)
+static inline void fourier_stage(int r, int n, int s, int step, const double *wave, const double *re, const double *im,
+                                 double *to_re, double *to_im)
 {
 	int m = n / r;
 	for (int p = 0; p < m; p++)
 		for (int q = 0; q < s; q += 8) {
 			struct complex_wide a[4], b[4];
 			for (int k = 0; k < r; k++)
-				a[k] = (struct complex_wide){ wide_load(re + q + (long)s * (p + k * m)), wide_load(im + q + (long)s * (p + k * m)) };
+				a[k] = load(re, im, q + (long)s * (p + k * m));
 			if (r == 4) {
 				butterfly(a, b);
 			} else if (r == 2) {
@@ -85,7 +91,8 @@ static inline void fourier_stage(int r, int n, int s, int step, const double *wa
 				b[1] = (struct complex_wide){ a[0].re - a[1].re, a[0].im - a[1].im };
 			} else {
 				wide sr = a[1].re + a[2].re, si = a[1].im + a[2].im, h = wide_of(sqrt(0.75));
-				wide dr = (a[1].re - a[2].re) * h, di = (a[1].im - a[2].im) * h, mr = a[0].re - 0.5 * sr, mi = a[0].im - 0.5 * si;
+				wide dr = (a[1].re - a[2].re) * h, di = (a[1].im - a[2].im) * h;
+				wide mr = a[0].re - 0.5 * sr, mi = a[0].im - 0.5 * si;
 				b[0] = (struct complex_wide){ a[0].re + sr, a[0].im + si };
 				b[1] = (struct complex_wide){ mr - di, mi + dr };
 				b[2] = (struct complex_wide){ mr + di, mi - dr };
@@ -99,8 +106,8 @@ static inline void fourier_stage(int r, int n, int s, int step, const double *wa
 		}
 }
 
-/* fourier - out_j = sum_k in_k exp(2 pi i j k / n), j, k = 0 .. n-1, for two sequences: the two values of a point stand together in
- * re[2 n] and im[2 n], other real and imaginary room of the same size. n = 16 2^a 3^b; wave[k] = exp(2 pi i k / n) in pairs.
+/* fourier - out_j = sum_k in_k exp(2 pi i j k / n), j, k = 0 .. n-1, for two sequences: the two values of a point stand together
+ * in re[2 n] and im[2 n], other real and imaginary room of the same size. n = 16 2^a 3^b; wave[k] = exp(2 pi i k / n) in pairs.
  * Returns which of the two rooms has the result: 0 or 1. */
 static int fourier(int n, const double *wave, double *re[2], double *im[2])
 {

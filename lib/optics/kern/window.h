@@ -1,7 +1,8 @@
 /* window - a function of bounded frequency at any point from its values on equal steps.
  *
  * Where f(t) = sum c_k exp(2 pi i k t) with |k| <= 1/(2 sigma), sigma >= 2, and g the same with c_k / W(k): f(t) is the sum of
- * w(t - j) g(j) over the TAPS nearest j, w(z) = I0(b sqrt(1 - (2 z/TAPS)^2)), W its transform. Error exp(-pi TAPS sqrt(1 - 1/sigma)). */
+ * w(t - j) g(j) over the TAPS nearest j, w(z) = I0(b sqrt(1 - (2 z/TAPS)^2)), W its transform.
+ * Error exp(-pi TAPS sqrt(1 - 1/sigma)). */
 #ifndef OPTICS_KERN_WINDOW_H
 #define OPTICS_KERN_WINDOW_H
 
