@@ -4,41 +4,58 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* An angle folded into the front half: its distance from the nearer axis, where it comes from, and -1 where there is none. */
+/* An angle folded into the front half: its distance from the nearer axis, and where it comes from, -1 where from none. */
 struct folded {
 	double t;
 	int front, behind;
 };
 
+static int side(const struct folded *f) { return (f->front >= 0 ? MIE_FRONT : 0) | (f->behind >= 0 ? MIE_BEHIND : 0); }
+
 static int by_angle(const void *a, const void *b)
 {
 	const struct folded *p = a, *q = b;
-	return p->t != q->t ? (p->t > q->t ? 1 : -1) : (p->behind >= 0) - (q->behind >= 0);
+	return (p->t > q->t) - (p->t < q->t);
 }
 
-/* Where it comes from. */
-static int side(const struct folded *f) { return (f->front >= 0 ? MIE_FRONT : 0) | (f->behind >= 0 ? MIE_BEHIND : 0); }
-
-static int by_side(const void *a, const void *b)
+/* Those of n angles that lie in front, or behind, from their axis on; sorted only where they do not come so. Returns how many. */
+static int half(int n, const double *theta, int behind, struct folded *f)
 {
-	const struct folded *p = a, *q = b;
-	return side(p) != side(q) ? side(p) - side(q) : by_angle(a, b);
+	int count = 0, sorted = 1;
+	for (int k = 0; k < n; k++) {
+		int i = behind ? n - 1 - k : k;
+		if ((theta[i] > 90) != behind)
+			continue;
+		f[count] = behind ? (struct folded){ 180 - theta[i], -1, i } : (struct folded){ theta[i], i, -1 };
+		sorted &= count == 0 || f[count - 1].t <= f[count].t;
+		count++;
+	}
+	if (!sorted)
+		qsort(f, (size_t)count, sizeof *f, by_angle);
+	return count;
 }
 
-/* Fold n angles; where one lies behind as far as another in front, both are one. Returns how many are left. */
+/* Fold n angles; where one lies behind as far as another in front, both are one. First these pairs, then what is only behind, then only
+ * in front. f[2 n]; returns how many are left. */
 static int fold(int n, const double *theta, struct folded *f)
 {
-	int left = 0;
-	for (int i = 0; i < n; i++)
-		f[i] = theta[i] <= 90 ? (struct folded){ theta[i], i, -1 } : (struct folded){ 180 - theta[i], -1, i };
-	qsort(f, (size_t)n, sizeof *f, by_angle);
-	for (int i = 0; i < n; i++) {
-		if (left && f[left - 1].t == f[i].t && f[left - 1].behind < 0 && f[i].front < 0)
-			f[left - 1].behind = f[i].behind;
-		else
-			f[left++] = f[i];
+	struct folded *all = f + n;
+	int front = half(n, theta, 0, all), left = 0;
+	half(n, theta, 1, all + front);
+	for (int i = 0, j = front; i < front && j < n;) {
+		if (all[i].t == all[j].t) {
+			all[i++].behind = all[j].behind;
+			all[j++].behind = -1;
+		} else if (all[i].t < all[j].t) {
+			i++;
+		} else {
+			j++;
+		}
 	}
-	qsort(f, (size_t)left, sizeof *f, by_side);
+	for (int which = MIE_PAIR; which >= MIE_FRONT; which--)
+		for (int i = 0; i < n; i++)
+			if (side(&all[i]) == which)
+				f[left++] = all[i];
 	return left;
 }
 
@@ -76,7 +93,7 @@ int mie_amplitudes(int n, const double complex *a, const double complex *b, int 
                    double complex *s1, double complex *s2)
 {
 	struct mie_factors *k = malloc(((size_t)n + 1) * sizeof *k);
-	struct folded *f = malloc(((size_t)ntheta + 1) * sizeof *f);
+	struct folded *f = malloc((2 * (size_t)ntheta + 1) * sizeof *f);
 	int *begin = malloc(((size_t)ntheta + 1) * sizeof *begin);    /* a block an angle at most */
 	mie_angles_fn *sums = mie_angles();
 	if (!k || !f || !begin) {
