@@ -20,9 +20,8 @@ EXR_CFLAGS = $(shell pkg-config --cflags OpenEXR)    # asked for when used: make
 TOOLS = $(patsubst tools/%.c,%,$(wildcard tools/*.c))
 CHECKS = $(patsubst tests/%.c,%,$(wildcard tests/*.c))
 GENERATED = materials kernels
-LOOPS = mie_block mie_angles goa_lanes series_lanes
-OBJECTS = $(patsubst lib/%.c,obj/%.o,$(filter-out lib/render/lanes.c $(LOOPS:%=lib/optics/%.c),$(wildcard lib/*/*.c))) \
-	$(GENERATED:%=obj/gen/%.o) $(LANE_OBJECTS) $(MIE_OBJECTS) $(GOA_OBJECTS) $(SERIES_OBJECTS)
+OBJECTS = $(patsubst lib/%.c,obj/%.o,$(filter-out lib/render/lanes.c $(LOOPS:%=lib/optics/%_lanes.c),$(wildcard lib/*/*.c))) \
+	$(GENERATED:%=obj/gen/%.o) $(LANE_OBJECTS) $(LOOP_OBJECTS)
 
 # The renderer's kernels, for each processor, transport and number of wavelengths (0: any; p: with a peak): LANES and the instructions.
 CPUS = scalar $(if $(filter x86_64,$(shell uname -m)),v2 v3 v4)
@@ -34,16 +33,17 @@ LANE_OBJECTS = $(foreach cpu,$(CPUS),$(foreach t,0 1 2 3,$(foreach w,0 1 3 1p 3p
 lane_flags = -g1 -Wno-unused-parameter $(LANES_$(word 1,$(1))) -DRENDER=render_$(subst $(space),_,$(1)) -DTRANSPORT=$(word 2,$(1)) \
 	$(if $(filter-out 0,$(word 3,$(1))),-DWAVES=$(subst p,,$(word 3,$(1))) -DPEAK=$(if $(findstring p,$(word 3,$(1))),1,0))
 space = $(subst ,, )
-# The loops of Lorenz-Mie over many spheres and many angles, for each processor: doubles are twice as long.
-MIE_OBJECTS = $(foreach loop,mie_block mie_angles,$(CPUS:%=obj/optics/$(loop)/%.o))
+# Loops of lib/optics in doubles, lib/optics/*_lanes.c, for each processor. GOA's: without -fno-tree-slp-vectorize gcc contracts complex products
+# whatever -ffp-contract says.
+LOOPS = mie goa series
 DOUBLES_scalar = -DLANES=1
 DOUBLES_v2 = -DLANES=2 -march=x86-64-v2
 DOUBLES_v3 = -DLANES=4 -march=x86-64-v3
 DOUBLES_v4 = -DLANES=8 -march=x86-64-v4 -mprefer-vector-width=512
-# The loops of GOA, for each processor. Without -fno-tree-slp-vectorize gcc contracts complex products whatever -ffp-contract says.
-GOA_OBJECTS = $(CPUS:%=obj/optics/goa_lanes/%.o)
-# The inner loops of lib/optics/series.h, for each processor.
-SERIES_OBJECTS = $(CPUS:%=obj/optics/series_lanes/%.o)
+FLAGS_mie = -funroll-loops
+FLAGS_goa = -O3 -fno-trapping-math -fcx-limited-range -fno-tree-slp-vectorize
+FLAGS_series = -O3
+LOOP_OBJECTS = $(foreach loop,$(LOOPS),$(CPUS:%=obj/optics/$(loop)_lanes/%.o))
 MAN = $(wildcard man/*.[1-9])
 
 all: programs
@@ -58,18 +58,10 @@ $(1)/obj/%.o: lib/%.c
 $(addprefix $(1)/,$(LANE_OBJECTS)): $(1)/obj/render/lanes/%.o: lib/render/lanes.c
 	@mkdir -p $$(@D)
 	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-O3) $$(call lane_flags,$$(subst _, ,$$*)) -MMD -MP -c -o $$@ $$<
-$(CPUS:%=$(1)/obj/optics/mie_block/%.o): $(1)/obj/optics/mie_block/%.o: lib/optics/mie_block.c
+$(foreach loop,$(LOOPS),$(CPUS:%=$(1)/obj/optics/$(loop)_lanes/%.o): $(1)/obj/optics/$(loop)_lanes/%.o: lib/optics/$(loop)_lanes.c
 	@mkdir -p $$(@D)
-	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-funroll-loops) $$(DOUBLES_$$*) -DMIE_BLOCK_FN=mie_block_$$* -MMD -MP -c -o $$@ $$<
-$(CPUS:%=$(1)/obj/optics/mie_angles/%.o): $(1)/obj/optics/mie_angles/%.o: lib/optics/mie_angles.c
-	@mkdir -p $$(@D)
-	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-funroll-loops) $$(DOUBLES_$$*) -DMIE_ANGLES_FN=mie_angles_$$* -MMD -MP -c -o $$@ $$<
-$(addprefix $(1)/,$(GOA_OBJECTS)): $(1)/obj/optics/goa_lanes/%.o: lib/optics/goa_lanes.c
-	@mkdir -p $$(@D)
-	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-O3) -fno-trapping-math -fcx-limited-range -fno-tree-slp-vectorize $$(LANES_$$*) -DGOA_LANES=goa_lanes_$$* -MMD -MP -c -o $$@ $$<
-$(addprefix $(1)/,$(SERIES_OBJECTS)): $(1)/obj/optics/series_lanes/%.o: lib/optics/series_lanes.c
-	@mkdir -p $$(@D)
-	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-O3) $$(filter -m%,$$(LANES_$$*)) -DKERNELS=series_$$* -MMD -MP -c -o $$@ $$<
+	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $$(FLAGS_$(loop)) $(if $(2),$(2) -O1) $$(DOUBLES_$$*) -DBUILD=$(loop)_lanes_$$* -MMD -MP -c -o $$@ $$<
+)
 $(1)/obj/gen/%.o: $(B)/gen/%.c
 	@mkdir -p $$(@D)
 	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -c -o $$@ $$<

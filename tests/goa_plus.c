@@ -1,5 +1,6 @@
 /* GOA+ against Lorenz-Mie: phase functions in L1 and angle by angle, efficiencies, and the error that goa_plus_error claims.
  * With --bench, L1 and time of GOA, GOA+ and Mie's direct sum as lines for a chart. */
+#include "optics/gauss.h"
 #include "optics/goa.h"
 #include "optics/goa_plus.h"
 #include "optics/mie.h"
@@ -14,8 +15,6 @@
 /* Gauss panels 2/x wide, the first ones at both ends in four: 12.6 x nodes and more. */
 static int grid(double x, double **theta, double **weight)
 {
-	static const double node[4] = { 0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363 };
-	static const double gauss[4] = { 0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763 };
 	int panels = (int)ceil(M_PI * x / 2) + 40, fine = 16, n = 8 * (panels + 6 * fine), k = 0;
 	*theta = malloc((size_t)n * sizeof **theta);
 	*weight = malloc((size_t)n * sizeof **weight);
@@ -24,9 +23,9 @@ static int grid(double x, double **theta, double **weight)
 		for (int j = 0; j < 8 * parts; j++) {
 			double half = M_PI / panels / parts / 2, lo = M_PI * i / panels + 2 * half * (j / 8);
 			int g = j % 8;
-			double t = lo + half * (1 + (g < 4 ? -node[3 - g] : node[g - 4]));
+			double t = lo + half * (1 + gauss_node[g]);
 			(*theta)[k] = t * (180 / M_PI);
-			(*weight)[k++] = half * (g < 4 ? gauss[3 - g] : gauss[g - 4]) * 2 * M_PI * sin(t);
+			(*weight)[k++] = half * gauss_weight[g] * 2 * M_PI * sin(t);
 		}
 	}
 	return k;
@@ -50,7 +49,7 @@ static struct efficiencies mie(double x, double complex m, int n, const double *
 	double complex *a = malloc(((size_t)terms + 1) * sizeof *a), *b = malloc(((size_t)terms + 1) * sizeof *b);
 	mie_coefficients(x, m, terms, a, b);
 	mie_amplitudes(terms, a, b, n, theta, s1, s2);
-	struct efficiencies q = mie_efficiencies(x, cimag(m) == 0, terms, a, b);
+	struct efficiencies q = mie_efficiencies(x, cimag(m) == 0, terms, a, b, NULL);
 	free(a);
 	free(b);
 	return q;

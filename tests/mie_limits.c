@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void *room(size_t n, size_t size)
 {
@@ -34,7 +35,7 @@ static void conservation(void)
 	for (int i = 0; i < 9; i++)
 		for (double x = 1e-3; x < 3e4; x *= 3.7) {
 			struct waves w = waves(x, m[i]);
-			struct efficiencies q = mie_efficiencies(x, 0, w.n, w.a, w.b);
+			struct efficiencies q = mie_efficiencies(x, 0, w.n, w.a, w.b, NULL);
 			worst = fmax(worst, relative(q.sca, q.ext));
 			lossless &= mie_lossless(w.n, w.a, w.b);
 			drop(&w);
@@ -74,7 +75,7 @@ static void normalisation(void)
 		double complex *s = room(2 * (size_t)n, sizeof *s);
 		angles_equal(n, theta);
 		mie_amplitudes(w.n, w.a, w.b, n, theta, s, s + n);
-		double q = mie_efficiencies(at[k].x, cimag(at[k].m) == 0, w.n, w.a, w.b).sca;
+		double q = mie_efficiencies(at[k].x, cimag(at[k].m) == 0, w.n, w.a, w.b, NULL).sca;
 		for (int i = 0; i < n; i++)
 			p[i] = (creal(s[i] * conj(s[i])) + creal(s[n + i] * conj(s[n + i]))) / (2 * M_PI * at[k].x * at[k].x * q);
 		worst = fmax(worst, fabs(2 * M_PI * clenshaw_curtis(n, p) - 1));
@@ -94,7 +95,7 @@ static void axes(void)
 	angles_equal(101, theta);
 	for (double x = 1e-5; x < 1e4; x *= 9.1) {
 		struct waves w = waves(x, 1.4 + 0.02 * I);
-		struct efficiencies q = mie_efficiencies(x, 0, w.n, w.a, w.b);
+		struct efficiencies q = mie_efficiencies(x, 0, w.n, w.a, w.b, NULL);
 		mie_amplitudes(w.n, w.a, w.b, 101, theta, s1, s2);
 		worst = fmax(worst, relative(4 / (x * x) * creal(s1[0]), q.ext));
 		worst = fmax(worst, cabs(s1[0] - s2[0]) / cabs(s1[0]));
@@ -136,7 +137,11 @@ static void limits(void)
 
 static void everywhere(void)
 {
-	int bad = 0, n = 3000;
+	enum { n = 3000 };
+	static double all_x[n], alone[n], together[n];
+	static double complex all_m[n];
+	static struct efficiencies q_alone[n], q_together[n];
+	int bad = 0;
 	for (int i = 0; i < n; i++) {
 		double x = pow(10, -8 + 12 * uniform());
 		if (i % 100 == 0)
@@ -147,10 +152,10 @@ static void everywhere(void)
 		if (x * hypot(re, im) > 5e4)
 			x = 5e4 / hypot(re, im);
 		struct waves w = waves(x, CMPLX(re, im));
-		struct efficiencies q = mie_efficiencies(x, im == 0, w.n, w.a, w.b);
+		double error;
+		struct efficiencies q = mie_efficiencies(x, im == 0, w.n, w.a, w.b, &error);
 		double complex s1[3], s2[3];
 		mie_amplitudes(w.n, w.a, w.b, 3, (double[]){ 0, 180 * uniform(), 180 }, s1, s2);
-		double error = mie_error(x, im == 0, w.n, w.a, w.b);
 		int good = q.ext >= q.sca && q.sca >= 0 && q.abs >= 0 && fabs(q.g) <= 1 && isfinite(q.ext) && isfinite(q.back) && error > 0 &&
 		           (isfinite(error) || q.ext < 1e-200);
 		for (int k = 0; k < 3; k++)
@@ -160,8 +165,14 @@ static void everywhere(void)
 			bad++;
 		}
 		drop(&w);
+		all_x[i] = x;
+		all_m[i] = CMPLX(re, im);
+		q_alone[i] = q;
+		alone[i] = error;
 	}
 	ok(!bad, "%d random spheres: %d not finite or not physical", n, bad);
+	bad = mie_many(n, all_x, all_m, q_together, together);
+	ok(!bad && !memcmp(q_alone, q_together, sizeof q_alone) && !memcmp(alone, together, sizeof alone), "all at once they are the same to the last bit");
 }
 
 static void grids(void)
@@ -186,7 +197,7 @@ static void grids(void)
 
 int main(void)
 {
-	plan(13);
+	plan(14);
 	conservation();
 	normalisation();
 	axes();

@@ -82,8 +82,7 @@ static void reference(void)
 		x[rows] = atof(v[0]);
 		m[rows] = CMPLX(atof(v[1]), atof(v[2]));
 		struct waves w = waves(x[rows], m[rows]);
-		q[rows] = mie_efficiencies(x[rows], cimag(m[rows]) == 0, w.n, w.a, w.b);
-		error[rows] = mie_error(x[rows], cimag(m[rows]) == 0, w.n, w.a, w.b);
+		q[rows] = mie_efficiencies(x[rows], cimag(m[rows]) == 0, w.n, w.a, w.b, &error[rows]);
 		const double got[4] = { q[rows].ext, q[rows].sca, q[rows].g, q[rows].back };
 		for (int i = 0; i < 4; i++) {
 			double e = off(got[i], atof(v[3 + i]));

@@ -43,8 +43,6 @@ static void reference(const struct waves *w, double theta, double complex s[2])
 	s[1] = CMPLX((double)sum[2], (double)sum[3]);
 }
 
-static double norm2(double complex z) { return creal(z) * creal(z) + cimag(z) * cimag(z); }
-
 /* Angles at and near both axes, and between: some on simple fractions of the circle, where periodic errors would meet. */
 static int angles_to_try(double x, double *theta)
 {
@@ -202,7 +200,7 @@ static double p_at(void *context, double theta)
 static struct sphere sphere_of(double x, double complex m, int *n)
 {
 	struct waves w = waves(x, m);
-	struct sphere s = { mie_series(w.n, w.a, w.b), M_PI * x * x * mie_efficiencies(x, cimag(m) == 0, w.n, w.a, w.b).sca };
+	struct sphere s = { mie_series(w.n, w.a, w.b), M_PI * x * x * mie_efficiencies(x, cimag(m) == 0, w.n, w.a, w.b, NULL).sca };
 	if (!s.series)
 		exit(2);
 	*n = w.n;
@@ -308,7 +306,7 @@ static void enough(void)
 				exit(2);
 			for (int i = 0; i < steps; i++)
 				error += sin(theta[i] * M_PI / 180) * fabs(norm2(s[i]) + norm2(s2[i]) - norm2(t1[i]) - norm2(t2[i]));
-			error *= M_PI * M_PI / steps / (2 * M_PI * x * x * mie_efficiencies(x, 1, w.n, w.a, w.b).sca);
+			error *= M_PI * M_PI / steps / (2 * M_PI * x * x * mie_efficiencies(x, 1, w.n, w.a, w.b, NULL).sca);
 			worst = fmax(worst, error / tolerance);
 			saved += w.n - n;
 			free(theta);

@@ -30,7 +30,7 @@ static inline void drop(struct waves *w)
 static inline struct efficiencies q_of(double x, double complex m)
 {
 	struct waves w = waves(x, m);
-	struct efficiencies q = mie_efficiencies(x, cimag(m) == 0, w.n, w.a, w.b);
+	struct efficiencies q = mie_efficiencies(x, cimag(m) == 0, w.n, w.a, w.b, NULL);
 	drop(&w);
 	return q;
 }

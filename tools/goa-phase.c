@@ -1,5 +1,4 @@
 /* goa-phase - scattering amplitudes and phase functions of large spheres by geometrical optics. */
-#include "base/cpu.h"
 #include "base/die.h"
 #include "optics/goa.h"
 #include "optics/goa_plus.h"
@@ -136,7 +135,6 @@ int main(int argc, char **argv)
 		die("--order", "is for goa and incoherent; goa+ has its own");
 	if (order >= 0)
 		model.order = (int)order;
-	cpu_level();               /* a processor that is none is an error before anything is read */
 	struct coeffs *in = coeffs_open_sizes(&sizes, args.n ? args.operand[0] : NULL);
 	if (coeffs_table(in) && tab_find(coeffs_table(in), "a_re", "1") >= 0)
 		die(tab_path(coeffs_table(in)), "holds coefficients, not sizes; mie-phase takes them");

@@ -1,5 +1,4 @@
 /* mie-phase - scattering amplitudes and phase functions of spheres by Lorenz-Mie theory. */
-#include "base/cpu.h"
 #include "base/die.h"
 #include "optics/mie_series.h"
 #include "pipe/phase.h"
@@ -38,7 +37,7 @@ static struct phase_state *sphere_open(const void *context, struct waves *w, siz
 		free(s);
 		return NULL;
 	}
-	struct efficiencies q = mie_efficiencies(w->size.x, w->lossless, w->n, w->a, w->b);
+	struct efficiencies q = mie_efficiencies(w->size.x, w->lossless, w->n, w->a, w->b, NULL);
 	s->w = w;
 	s->state.q_sca = q.sca;
 	s->state.norm = M_PI * w->size.x * w->size.x * q.sca;    /* k^2 C_sca: p as the sums give it, not renormalised */
@@ -97,7 +96,6 @@ int main(int argc, char **argv)
 	struct opt_line args = opt_parse(&tool, argc, argv);
 	if (args.n > 1)
 		die(args.operand[1], "one table at most");
-	cpu_level();               /* a processor that is none is an error before anything is read */
 	phase.tolerance = isnan(tolerance) ? TOLERANCE : tolerance;
 	/* Of the error asked for, a tenth is the amplitudes'; the grid has the rest. */
 	if (!isnan(tolerance)) {

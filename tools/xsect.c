@@ -1,5 +1,4 @@
 /* xsect - cross sections and asymmetry parameter of spheres. */
-#include "base/cpu.h"
 #include "base/die.h"
 #include "optics/goa.h"
 #include "optics/mie.h"
@@ -44,10 +43,8 @@ static void by_mie(int n, struct waves *w, struct answer *a)
 	static double complex m[COEFFS_BATCH];
 	static struct efficiencies q[COEFFS_BATCH];
 	if (n && w[0].a) {
-		for (int i = 0; i < n; i++) {
-			a[i].q = mie_efficiencies(w[i].size.x, w[i].lossless, w[i].n, w[i].a, w[i].b);
-			a[i].error = mie_error(w[i].size.x, w[i].lossless, w[i].n, w[i].a, w[i].b);
-		}
+		for (int i = 0; i < n; i++)
+			a[i].q = mie_efficiencies(w[i].size.x, w[i].lossless, w[i].n, w[i].a, w[i].b, &a[i].error);
 		return;
 	}
 	for (int i = 0; i < n; i++) {

@@ -1,5 +1,6 @@
 #include "medium/optics.h"
 
+#include "base/ascending.h"
 #include "base/die.h"
 #include "base/tab.h"
 #include "optics/phase.h"
@@ -122,12 +123,6 @@ static void curve_add(struct curve *c, double theta, double p)
 	}
 	c->theta[c->n] = theta;
 	c->p[c->n++] = p;
-}
-
-static int ascending(const void *a, const void *b)
-{
-	double x = *(const double *)a, y = *(const double *)b;
-	return (x > y) - (x < y);
 }
 
 /* The union of the nodes of n curves, as floats that differ, and with no interval longer than INTERVAL. */

@@ -14,49 +14,27 @@ static const double v[TERMS] = { 1, -0.09722222222222222, -0.04388503086419753, 
 	-0.12410589602727509, -0.3082537649010791, -0.9204799924129445, -3.210493584648621, -12.807293080735626,
 	-57.50830351391427 };
 
-/* f, g and their derivatives: Ai = AI0 f - AIP0 g, Bi = sqrt 3 (AI0 f + AIP0 g). */
-static void series(double complex z, double complex out[4])
-{
-	double complex z3 = z * z * z, f = 1, g = z, fp = z * z / 2, gp = 1, tf = 1, tg = z, tfp = fp, tgp = 1;
-	double size = cabs(z3);
-	for (int k = 3; k < 150; k += 3) {
-		tf *= z3 / ((k - 1.0) * k);
-		tg *= z3 / (k * (k + 1.0));
-		tfp *= z3 / (k * (k + 2.0));
-		tgp *= z3 / ((k - 2.0) * k);
-		f += tf;
-		g += tg;
-		fp += tfp;
-		gp += tgp;
-		if (k * (double)k > size && cabs(tf) + cabs(tg) + cabs(tfp) + cabs(tgp) < 1e-16 * (cabs(f) + cabs(g) + cabs(gp)))
-			break;
-	}
-	out[0] = f;
-	out[1] = g;
-	out[2] = fp;
-	out[3] = gp;
+/* f, g and their derivatives: Ai = AI0 f - AIP0 g, Bi = sqrt 3 (AI0 f + AIP0 g). For real z apart, where it takes a quarter of the time. */
+#define SERIES(name, number, size) \
+static void name(number z, number out[4]) \
+{ \
+	number z3 = z * z * z, f = 1, g = z, fp = z * z / 2, gp = 1, tf = 1, tg = z, tfp = fp, tgp = 1; \
+	double most = size(z3); \
+	for (int k = 3; k < 150; k += 3) { \
+		f += tf *= z3 / ((k - 1.0) * k); \
+		g += tg *= z3 / (k * (k + 1.0)); \
+		fp += tfp *= z3 / (k * (k + 2.0)); \
+		gp += tgp *= z3 / ((k - 2.0) * k); \
+		if (k * (double)k > most && size(tf) + size(tg) + size(tfp) + size(tgp) < 1e-16 * (size(f) + size(g) + size(gp))) \
+			break; \
+	} \
+	out[0] = f; \
+	out[1] = g; \
+	out[2] = fp; \
+	out[3] = gp; \
 }
-
-static void series_real(double z, double out[4])
-{
-	double z3 = z * z * z, f = 1, g = z, fp = z * z / 2, gp = 1, tf = 1, tg = z, tfp = fp, tgp = 1, size = fabs(z3);
-	for (int k = 3; k < 150; k += 3) {
-		tf *= z3 / ((k - 1.0) * k);
-		tg *= z3 / (k * (k + 1.0));
-		tfp *= z3 / (k * (k + 2.0));
-		tgp *= z3 / ((k - 2.0) * k);
-		f += tf;
-		g += tg;
-		fp += tfp;
-		gp += tgp;
-		if (k * (double)k > size && fabs(tf) + fabs(tg) + fabs(tfp) + fabs(tgp) < 1e-16)
-			break;
-	}
-	out[0] = f;
-	out[1] = g;
-	out[2] = fp;
-	out[3] = gp;
-}
+SERIES(series, double complex, cabs)
+SERIES(series_real, double, fabs)
 
 struct airy airy_real(double z)
 {

@@ -1,21 +1,15 @@
 #include "optics/goa.h"
 
+#include "optics/gauss.h"
 #include "optics/goa_norm.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#define NODES 8        /* nodes of a panel's quadrature */
 #define PANELS 24      /* of the quadrature of absorption, on either side of the critical angle */
 #define GLORY 4        /* highest order looked at for forward glories */
 #define GRIDS 26       /* sizes up to 2^0 .. 2^25 */
 #define CHUNK 4096     /* angles of goa_amplitudes whose rays are held at once */
-
-/* Gauss-Legendre on [-1, 1], Abramowitz and Stegun table 25.4. */
-static const double node[NODES] = { -0.9602898564975363, -0.7966664774136267, -0.5255324099163290, -0.1834346424956498,
-	0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363 };
-static const double weight[NODES] = { 0.1012285362903763, 0.2223810344533745, 0.3137066458778873, 0.3626837833783620,
-	0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763 };
 
 /* Where light may enter an absorbing sphere: a node of a quadrature over the impact parameter. */
 struct entry {
@@ -30,7 +24,7 @@ struct goa {
 	struct goa_rays asked, back;
 	struct goa_beam *front;         /* forward up to GLORY, for the estimate of errors */
 	int fronts;
-	struct entry entry[2 * PANELS * NODES];
+	struct entry entry[2 * PANELS * GAUSS];
 	int entries;                    /* 0: does not absorb */
 	struct goa_grid grid[GRIDS];    /* for the norm, by size */
 };
@@ -84,12 +78,12 @@ static int enter(double complex m, struct entry *out)
 		double lo = inside ? width * panel : edge + width * (panel - PANELS);
 		if (width == 0)
 			break;
-		for (int j = 0; j < NODES; j++) {
-			double i = lo + width * (1 + node[j]) / 2, s = sin(i), c = cos(i);
+		for (int j = 0; j < GAUSS; j++) {
+			double i = lo + width * (1 + gauss_node[j]) / 2, s = sin(i), c = cos(i);
 			struct ray r = { .sin_i = s, .cos_i = c };
 			double complex r1, r2;
 			goa_fresnel(m, s, c, &r1, &r2);
-			out[k++] = (struct entry){ weight[j] * width / 2 * s * c, { creal(r1 * conj(r1)), creal(r2 * conj(r2)) },
+			out[k++] = (struct entry){ gauss_weight[j] * width / 2 * s * c, { creal(r1 * conj(r1)), creal(r2 * conj(r2)) },
 			                           inside ? cimag(goa_chord(m, &r)) : INFINITY };
 		}
 	}
@@ -111,7 +105,7 @@ struct goa *goa_new(double complex m, int order)
 	g->front = malloc((size_t)((most + 1) * (most + 8)) * sizeof *g->front);    /* the sum of RAYS_MAX */
 	if (g->front)
 		g->fronts = goa_trace(m, most, g->caustic, 0, g->front);
-	if (g->front && g->lanes && !goa_rays_find(m, order, g->caustic, 1, (double[]){ 180 }, &g->back))
+	if (g->front && !goa_rays_find(m, order, g->caustic, 1, (double[]){ 180 }, &g->back))
 		return g;
 	goa_free(g);
 	return NULL;

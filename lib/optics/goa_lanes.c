@@ -1,10 +1,10 @@
-/* One build of the loops: compiled for each processor, GOA_LANES the name. */
+/* One build of the loops: compiled for each processor, BUILD the name. */
 #include "optics/goa_lanes.h"
 
 #include "optics/debye_lanes.h"
+#include "optics/gauss.h"
 
 #include <math.h>
-
 
 /* x sqrt(D) of a packet's rays, with what absorption leaves. */
 static void spreads(const struct goa_packet *k, double x, const struct goa_cap *cap, double size[GOA_WIDTH])
@@ -370,9 +370,6 @@ static double coefficients(const struct edge *e, const struct window *only, stru
 
 static double absorption(const struct edge *e)
 {
-	/* Gauss-Legendre on [-1, 1], Abramowitz and Stegun table 25.4 */
-	static const double node[4] = { 0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363 };
-	static const double weight[4] = { 0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763 };
 	double x = e->x, n = creal(e->m), s = cbrt(x / 2) / x, sy = cbrt(n * x / 2) / x, q = 0;
 	if (cimag(e->m) == 0)
 		return 0;
@@ -399,7 +396,7 @@ static double absorption(const struct edge *e)
 		double half = (at[k + 1] - at[k]) / 2, lambda[DEBYE_WIDTH];
 		struct debye_phase outside, inside;
 		for (int i = 0; i < DEBYE_WIDTH; i++)
-			lambda[i] = x * ((at[k] + at[k + 1]) / 2 + half * (i < 4 ? -node[3 - i] : node[i - 4]));
+			lambda[i] = x * ((at[k] + at[k + 1]) / 2 + half * gauss_node[i]);
 		debye_phases(lambda, x, &outside);
 		debye_phases(lambda, x * n, &inside);
 		for (int i = 0; i < DEBYE_WIDTH; i++) {
@@ -413,10 +410,10 @@ static double absorption(const struct edge *e)
 				double in = creal(d.i[j] * conj(d.i[j]));
 				sum += 1 - r - (t > 0 ? t / (1 - in) : 0);
 			}
-			q += half * (i < 4 ? weight[3 - i] : weight[i - 4]) * lambda[i] / x * sum;
+			q += half * gauss_weight[i] * lambda[i] / x * sum;
 		}
 	}
 	return fmax(q, 0);
 }
 
-const struct goa_lanes GOA_LANES = { coherent, incoherent, diffraction, plus, waves, coefficients, absorption };
+const struct goa_lanes BUILD = { coherent, incoherent, diffraction, plus, waves, coefficients, absorption };

@@ -3,6 +3,7 @@
 #ifndef OPTICS_GOA_LANES_H
 #define OPTICS_GOA_LANES_H
 
+#include "base/cpu.h"
 #include "optics/goa_rays.h"
 #include "optics/plus_rays.h"
 
@@ -24,10 +25,7 @@ struct goa_lanes {
 	double (*absorption)(const struct edge *e);
 };
 
-extern const struct goa_lanes goa_lanes_scalar;
-#ifdef __x86_64__
-extern const struct goa_lanes goa_lanes_v2, goa_lanes_v3, goa_lanes_v4;
-#endif
+CPU_DECLARE(const struct goa_lanes, goa_lanes);
 
 /* goa_lanes - the build for this processor, by cpu_level. */
 const struct goa_lanes *goa_lanes(void);

@@ -1,5 +1,8 @@
 #include "optics/goa_norm.h"
 
+#include "base/ascending.h"
+#include "optics/gauss.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,12 +11,6 @@
 #define FULL 35.0          /* theta X up to which all of it counts */
 #define LAST 98.0         /* and up to which any does */
 #define CROWDS 6           /* orders around whose caustics panels crowd */
-
-static int ascending(const void *a, const void *b)
-{
-	double x = *(const double *)a, y = *(const double *)b;
-	return (x > y) - (x < y);
-}
 
 /* The panels' ends in rad; out has room for most + 300. */
 static int panels(double n, int order, const struct caustic *caustic, double most, double *out)
@@ -52,9 +49,6 @@ static int panels(double n, int order, const struct caustic *caustic, double mos
 
 int goa_grid_new(double complex m, int order, const struct caustic *caustic, double most, struct goa_grid *out)
 {
-	/* Gauss-Legendre on [-1, 1], Abramowitz and Stegun table 25.4 */
-	static const double node[4] = { 0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363 };
-	static const double weight[4] = { 0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763 };
 	double *end = malloc(1000 * sizeof *end), *theta = NULL;
 	int status = -1;
 	memset(out, 0, sizeof *out);
@@ -71,10 +65,10 @@ int goa_grid_new(double complex m, int order, const struct caustic *caustic, dou
 		for (int k = 0; k < n; k++) {
 			int i = k % GOA_WIDTH;
 			double lo = end[k / GOA_WIDTH], half = (end[k / GOA_WIDTH + 1] - lo) / 2, first, second;
-			double t = lo + half + half * (i < 4 ? -node[3 - i] : node[i - 4]), near = fmin(t, M_PI - t);
+			double t = lo + half + half * gauss_node[i], near = fmin(t, M_PI - t);
 			double complex r1, r2;
 			theta[k] = t * (180 / M_PI);
-			out->weight[k] = 2 * M_PI * sin(t) * half * (i < 4 ? weight[3 - i] : weight[i - 4]);
+			out->weight[k] = 2 * M_PI * sin(t) * half * gauss_weight[i];
 			out->share[k] = most <= ALL ? 1 : window_piece(LAST / most, most / (FULL - LAST), near, &first, &second);
 			goa_fresnel(m, cos(t / 2), sin(t / 2), &r1, &r2);
 			out->cosine[k] = cos(t);

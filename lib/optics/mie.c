@@ -12,11 +12,6 @@
 #define UNROLL 1
 #include "optics/mie_solve.h"
 
-static double norm2(double complex z)
-{
-	return creal(z) * creal(z) + cimag(z) * cimag(z);
-}
-
 int mie_terms(double x, double complex m)
 {
 	double edge = cbrt(x), y = sqrt(norm2(m)) * x, broad = cimag(m) * x;
@@ -81,7 +76,7 @@ double mie_error_of_sums(double x, int lossless, const struct mie_sums *s)
 	return 2 * DBL_EPSILON * (10 + x + 1 / contrast);
 }
 
-static struct mie_sums sums_of(int lossless, int n, const double complex *a, const double complex *b)
+struct efficiencies mie_efficiencies(double x, int lossless, int n, const double complex *a, const double complex *b, double *error)
 {
 	struct solved q = { { 0 }, { 0 }, { 0 }, { 0 }, { 0 } };
 	struct spheres s = { .absorb = !lossless };
@@ -92,17 +87,8 @@ static struct mie_sums sums_of(int lossless, int n, const double complex *a, con
 		memcpy(old_a, al, sizeof al);
 		memcpy(old_b, bl, sizeof bl);
 	}
-	return (struct mie_sums){ q.ext[0], q.sca[0], q.asym[0], q.back_re[0], q.back_im[0] };
-}
-
-struct efficiencies mie_efficiencies(double x, int lossless, int n, const double complex *a, const double complex *b)
-{
-	struct mie_sums s = sums_of(lossless, n, a, b);
-	return mie_of_sums(x, lossless, &s);
-}
-
-double mie_error(double x, int lossless, int n, const double complex *a, const double complex *b)
-{
-	struct mie_sums s = sums_of(lossless, n, a, b);
-	return mie_error_of_sums(x, lossless, &s);
+	struct mie_sums sums = { q.ext[0], q.sca[0], q.asym[0], q.back_re[0], q.back_im[0] };
+	if (error)
+		*error = mie_error_of_sums(x, lossless, &sums);
+	return mie_of_sums(x, lossless, &sums);
 }

@@ -26,7 +26,7 @@ int mie_terms(double x, double complex m);
  * Returned: a[n+1], b[n+1]; 0 on success, -1 when memory ran out */
 int mie_coefficients(double x, double complex m, int n, double complex *a, double complex *b);
 
-/* mie_many - efficiencies and mie_error of n spheres x[n], m[n] (ranges as above), many side by side, the same to the last bit as of each
+/* mie_many - efficiencies and their error of n spheres x[n], m[n] (ranges as above), many side by side, the same to the last bit as of each
  * alone. Blocks of spheres are shared out among OpenMP threads.
  * Returned: q[n], error[n]; 0, or -1 when memory ran out */
 int mie_many(int n, const double *x, const double complex *m, struct efficiencies *q, double *error);
@@ -35,13 +35,10 @@ int mie_many(int n, const double *x, const double complex *m, struct efficiencie
  * So a stream of coefficients need not carry m. */
 int mie_lossless(int n, const double complex *a, const double complex *b);
 
-/* mie_efficiencies - sums over given coefficients a[n+1], b[n+1]; lossless: scattering equals extinction, absorption is 0. */
-struct efficiencies mie_efficiencies(double x, int lossless, int n, const double complex *a, const double complex *b);
-
-/* mie_error - estimate of what rounding does to the efficiencies: the larger of the relative errors of ext and sca and the
- * absolute error of g. It grows with x, and where m is near 1. On a narrow resonance the rounding of x itself can do far more;
- * that is not in it. */
-double mie_error(double x, int lossless, int n, const double complex *a, const double complex *b);
+/* mie_efficiencies - sums over given coefficients a[n+1], b[n+1]; lossless: scattering equals extinction, absorption is 0.
+ * *error, unless NULL: estimate of what rounding does to them, the larger of the relative errors of ext and sca and the absolute error
+ * of g. It grows with x, and where m is near 1. On a narrow resonance the rounding of x itself can do far more; that is not in it. */
+struct efficiencies mie_efficiencies(double x, int lossless, int n, const double complex *a, const double complex *b, double *error);
 
 /* mie_amplitudes - S1, S2 at angles theta[ntheta] (degrees, [0, 180]) by direct summation; 0, or -1 when memory ran out.
  * An angle's result does not depend on the others. Blocks of angles are shared out among OpenMP threads. */

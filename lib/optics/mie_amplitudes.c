@@ -95,7 +95,7 @@ int mie_amplitudes(int n, const double complex *a, const double complex *b, int 
 	struct mie_factors *k = malloc(((size_t)n + 1) * sizeof *k);
 	struct folded *f = malloc((2 * (size_t)ntheta + 1) * sizeof *f);
 	int *begin = malloc(((size_t)ntheta + 1) * sizeof *begin);    /* a block an angle at most */
-	mie_angles_fn *sums = mie_angles();
+	const struct mie_lanes *lanes = mie_lanes();
 	if (!k || !f || !begin) {
 		free(k);
 		free(f);
@@ -113,7 +113,7 @@ int mie_amplitudes(int n, const double complex *a, const double complex *b, int 
 			double h = sin(own[i].t * (M_PI / 360));
 			c[i] = 2 * h * h;
 		}
-		sums(n, k, which, c, sum);
+		lanes->angles(n, k, which, c, sum);
 		for (int i = 0; i < angles; i++) {
 			if (which & MIE_FRONT)
 				amplitude(sum, i, 0, &s1[own[i].front], &s2[own[i].front]);

@@ -6,6 +6,7 @@
 #define MIE_BLOCK 32           /* spheres side by side */
 #define MIE_BLOCK_TERMS 20000  /* of these, so that a block's ratios stay within 3 x 5 MB */
 
+#include "base/cpu.h"
 #include "optics/mie.h"
 
 #include <stddef.h>
@@ -38,12 +39,6 @@ struct mie_block {
 
 #define mie_block_room(terms) (3 * ((size_t)(terms) + 2) * MIE_BLOCK)
 
-typedef void mie_block_fn(struct mie_block *b);
-extern mie_block_fn mie_block_scalar;
-#ifdef __x86_64__
-extern mie_block_fn mie_block_v2, mie_block_v3, mie_block_v4;
-#endif
-
 #define MIE_ANGLES 32
 
 /* What the sums at an angle need of order l. */
@@ -53,17 +48,17 @@ struct mie_factors {
 };
 enum { MIE_FRONT = 1, MIE_BEHIND = 2, MIE_PAIR = 3 };
 
-/* Sums over l of s_l (pi_l + tau_l)/l and d_l (pi_l - tau_l)/l at MIE_ANGLES angles in [0, 90] deg given by c = 1 - cos theta.
- * Given:    k[n+1], k[0] unused; sides: with the factors for angles in front, for those behind, or first with these, then with those
- * Returned: out[4, or 8 of a pair]: real and imaginary part of the one, then of the other sum */
-typedef void mie_angles_fn(int n, const struct mie_factors *k, int sides, const double *c, double (*out)[MIE_ANGLES]);
-extern mie_angles_fn mie_angles_scalar;
-#ifdef __x86_64__
-extern mie_angles_fn mie_angles_v2, mie_angles_v3, mie_angles_v4;
-#endif
+struct mie_lanes {
+	void (*block)(struct mie_block *b);
+	/* Sums over l of s_l (pi_l + tau_l)/l and d_l (pi_l - tau_l)/l at MIE_ANGLES angles in [0, 90] deg given by c = 1 - cos theta.
+	 * Given:    k[n+1], k[0] unused; sides: with the factors for angles in front, for those behind, or first with these, then with those
+	 * Returned: out[4, or 8 of a pair]: real and imaginary part of the one, then of the other sum */
+	void (*angles)(int n, const struct mie_factors *k, int sides, const double *c, double (*out)[MIE_ANGLES]);
+};
 
-/* The builds for this processor, by cpu_level. */
-mie_block_fn *mie_block(void);
-mie_angles_fn *mie_angles(void);
+CPU_DECLARE(const struct mie_lanes, mie_lanes);
+
+/* mie_lanes - the build for this processor, by cpu_level. */
+const struct mie_lanes *mie_lanes(void);
 
 #endif

@@ -23,15 +23,13 @@ static int alone(double x, double complex m, int n, struct efficiencies *q, doub
 {
 	double complex *a = malloc(2 * ((size_t)n + 1) * sizeof *a);
 	int lossless = cimag(m) == 0, bad = !a || mie_coefficients(x, m, n, a, a + n + 1);
-	if (!bad) {
-		*q = mie_efficiencies(x, lossless, n, a, a + n + 1);
-		*error = mie_error(x, lossless, n, a, a + n + 1);
-	}
+	if (!bad)
+		*q = mie_efficiencies(x, lossless, n, a, a + n + 1, error);
 	free(a);
 	return bad;
 }
 
-static int together(mie_block_fn *block, const struct item *item, int n, const double *x, const double complex *m, struct efficiencies *q,
+static int together(const struct mie_lanes *lanes, const struct item *item, int n, const double *x, const double complex *m, struct efficiencies *q,
                     double *error)
 {
 	struct mie_block b = { .absorbs = item->kind & ABSORBS, .near = item->kind & NEAR };
@@ -45,7 +43,7 @@ static int together(mie_block_fn *block, const struct item *item, int n, const d
 		b.m_im[i] = cimag(m[own->at]);
 		b.terms[i] = own->terms;
 	}
-	block(&b);
+	lanes->block(&b);
 	for (int i = 0; i < n; i++) {
 		int at = item[i].at;
 		q[at] = mie_of_sums(x[at], !b.absorbs, &b.sums[i]);
@@ -58,7 +56,7 @@ static int together(mie_block_fn *block, const struct item *item, int n, const d
 int mie_many(int n, const double *x, const double complex *m, struct efficiencies *q, double *error)
 {
 	struct item *item = malloc(((size_t)n + 1) * sizeof *item);
-	mie_block_fn *block = mie_block();
+	const struct mie_lanes *lanes = mie_lanes();
 	if (!item)
 		return -1;
 	int sorted = 1, bad = 0;
@@ -77,7 +75,7 @@ int mie_many(int n, const double *x, const double complex *m, struct efficiencie
 			while (last < end && item[last].kind == item[first].kind && item[last].terms <= MIE_BLOCK_TERMS)
 				last++;
 			if (last - first > MIE_BLOCK / 8) {
-				bad |= together(block, item + first, last - first, x, m, q, error);
+				bad |= together(lanes, item + first, last - first, x, m, q, error);
 				first = last;
 			} else {
 				int at = item[first].at;

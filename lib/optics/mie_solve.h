@@ -47,7 +47,7 @@ INLINE void ratios_real(int top, int low, int n, const vec *inv, const vec *star
 			vec t1 = not_zero(k1 * inv[u] + v[u]), t2 = not_zero(k2 * inv[u] * t1 - 1.0), r = 1.0 / (t1 * t2);
 			vec e1 = -(t2 * r), e2 = -(t1 * (t1 * r));
 			if (l - 1 > n) {
-				truths begun = TRUTHS(start[u] >= (double)l);
+				truths begun = (start[u] >= (double)l);
 				e1 = PICK(begun, e1, each(0));
 				e2 = PICK(begun, e2, each(0));
 			}
@@ -76,7 +76,7 @@ INLINE void ratios_complex(int top, int n, const vec *inv_r, const vec *inv_i, c
 			vec e1r = -(pr * rp), e1i = pi * rp;    /* -1/p, -p/q */
 			vec e2r = -((pr * qr + pi * qi) * rq), e2i = -((pi * qr - pr * qi) * rq);
 			if (l - 1 > n) {
-				truths begun = TRUTHS(start[u] >= (double)l);
+				truths begun = (start[u] >= (double)l);
 				e1r = PICK(begun, e1r, each(0));
 				e1i = PICK(begun, e1i, each(0));
 				e2r = PICK(begun, e2r, each(0));
@@ -118,7 +118,7 @@ INLINE void ratios_near(int top, int n, int absorb, const vec *inv, const vec *r
 				pr[u] = nr * r;
 			}
 			if (l > n) {
-				truths begun = TRUTHS(start[u] >= (double)l);
+				truths begun = (start[u] >= (double)l);
 				v[u] = PICK(begun, v[u], each(0));
 				pr[u] = PICK(begun, pr[u], each(0));
 				pi[u] = PICK(begun, pi[u], each(0));
@@ -242,7 +242,7 @@ INLINE void climb_to(struct climb *k, const struct spheres *s, const struct rati
 	EACH(u) {
 		vec w = (2.0 * l - 1) * k->inv_x[u], psi = w * k->psi[u] - k->psi_old[u], chi = w * k->chi[u] - k->chi_old[u];
 		if (outside)
-			psi = PICK(TRUTHS(s->x[u] > (double)l), psi, -(e->x[(l - 1) * UNROLL + u] * k->psi[u]));
+			psi = PICK((s->x[u] > (double)l), psi, -(e->x[(l - 1) * UNROLL + u] * k->psi[u]));
 		k->psi_old[u] = k->psi[u];
 		k->psi[u] = psi;
 		k->chi_old[u] = k->chi[u];
@@ -270,7 +270,7 @@ INLINE void climb_waves(const struct climb *k, const struct spheres *s, const st
 	}
 	vec A = (far + t) * psi - k->psi_old[u], B = (fbr + t) * psi - k->psi_old[u];
 	if (outside) {             /* beyond x with psi_{l-1}/psi_l = E_l(x) + (2l+1)/x taken off by hand */
-		truths inside = TRUTHS(s->x[u] > (double)l);
+		truths inside = (s->x[u] > (double)l);
 		vec ex = e->x[l * UNROLL + u];
 		A = PICK(inside, A, (far - ex) * psi);
 		B = PICK(inside, B, (fbr - ex) * psi);
@@ -283,9 +283,9 @@ INLINE void climb_waves(const struct climb *k, const struct spheres *s, const st
 			p = p - di * k->inv_im[u];
 			q = q - di * s->m_im[u];
 		}
-		truths beyond = TRUTHS(s->x[u] <= (double)l);
-		A = PICK(beyond | (TRUTHS(p < 1.0) & TRUTHS(p > -1.0)), p * psi, A);
-		B = PICK(beyond | (TRUTHS(q < 1.0) & TRUTHS(q > -1.0)), q * psi, B);
+		truths beyond = (s->x[u] <= (double)l);
+		A = PICK(beyond | ((p < 1.0) & (p > -1.0)), p * psi, A);
+		B = PICK(beyond | ((q < 1.0) & (q > -1.0)), q * psi, B);
 	}
 	vec C = (far + t) * chi - k->chi_old[u], D = (fbr + t) * chi - k->chi_old[u], r;
 	if (s->absorb) {
@@ -309,7 +309,7 @@ INLINE void climb_waves(const struct climb *k, const struct spheres *s, const st
 	}
 	if (!outside)
 		return;
-	truths good = TRUTHS(s->terms[u] >= (double)l) & TRUTHS(chi <= CHI_MAX) & TRUTHS(chi >= -CHI_MAX);
+	truths good = (s->terms[u] >= (double)l) & (chi <= CHI_MAX) & (chi >= -CHI_MAX);
 	for (int c = 0; c < 2; c++) {
 		a[c] = PICK(good, a[c], each(0));
 		b[c] = PICK(good, b[c], each(0));

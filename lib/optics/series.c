@@ -1,15 +1,10 @@
-#include "base/cpu.h"
 #include "optics/series_kernels.h"
 
 #include <stdlib.h>
 
-static const struct series_kernels *kernels(void)
+const struct series_kernels *series_lanes(void)
 {
-	const struct series_kernels *const build[] = { &series_scalar,
-#ifdef __x86_64__
-		&series_v2, &series_v3, &series_v4
-#endif
-	};
+	const struct series_kernels *const build[] = CPU_BUILDS(&series_lanes);
 	return build[cpu_level()];
 }
 
@@ -29,7 +24,7 @@ struct series *series_new(int n, double (*c)[SERIES])
 	struct series *s = malloc(sizeof *s);
 	if (!s)
 		return NULL;
-	s->kernels = kernels();
+	s->kernels = series_lanes();
 	s->steps = steps_for(n);
 	s->grid = malloc(((size_t)s->steps + 2 * SERIES_PAD) * SERIES * sizeof *s->grid);
 	if (!s->grid || s->kernels->prepare(s, n, c)) {

@@ -1,7 +1,8 @@
-/* series_kernels - the parts of series that are compiled for each processor (series_lanes.c). */
+/* series_kernels - the parts of series, and the transform under them, that are compiled for each processor (series_lanes.c). */
 #ifndef OPTICS_SERIES_KERNELS_H
 #define OPTICS_SERIES_KERNELS_H
 
+#include "base/cpu.h"
 #include "optics/series.h"
 
 #define SERIES_PAD 8      /* steps beyond each end of the grid */
@@ -17,8 +18,14 @@ struct series_kernels {
 	/* fill poly and grid from Legendre coefficients c[n+1]; 0, or -1 when memory ran out */
 	int (*prepare)(struct series *s, int n, double (*c)[SERIES]);
 	void (*at)(const struct series *s, int count, const double *theta, double (*values)[SERIES]);
+	/* fourier_waves and fourier of kern/fourier.h */
+	void (*waves)(int n, double *wave);
+	int (*fourier)(int n, const double *wave, double *re[2], double *im[2]);
 };
 
-extern const struct series_kernels series_scalar, series_v2, series_v3, series_v4;
+CPU_DECLARE(const struct series_kernels, series_lanes);
+
+/* series_lanes - the build for this processor, by cpu_level. */
+const struct series_kernels *series_lanes(void);
 
 #endif

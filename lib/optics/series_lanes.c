@@ -1,4 +1,4 @@
-/* The inner loops of series, compiled for each processor: KERNELS names what comes out. */
+/* The inner loops of series, compiled for each processor: BUILD names what comes out. */
 #include "optics/series_kernels.h"
 
 #include "optics/kern/fourier.h"
@@ -68,4 +68,4 @@ static void at(const struct series *s, int count, const double *theta, double (*
 	}
 }
 
-const struct series_kernels KERNELS = { prepare, at };
+const struct series_kernels BUILD = { prepare, at, fourier_waves, fourier };

@@ -13,18 +13,16 @@
 typedef double vec;
 typedef int64_t truths;
 #define PICK(m, a, b) ((m) ? (a) : (b))
-#define TRUTHS(c) (c)
 #define LANE(v, i) ((v)[i])
 #else
 typedef double vec __attribute__((vector_size(8 * LANES)));
 typedef int64_t truths __attribute__((vector_size(8 * LANES)));
 #define PICK(m, a, b) ((vec)(((m) & (truths)(a)) | (~(m) & (truths)(b))))
-#define TRUTHS(c) (c)
 #define LANE(v, i) ((v)[(i) / LANES][(i) % LANES])
 #endif
 
 INLINE vec each(double a) { return a - (vec){ 0 }; }
-INLINE vec larger(vec a, vec b) { return PICK(TRUTHS(a > b), a, b); }
+INLINE vec larger(vec a, vec b) { return PICK((a > b), a, b); }
 INLINE vec not_zero(vec a) { return PICK(a == 0, each(1e-290), a); }
 
 #endif

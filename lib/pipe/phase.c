@@ -1,5 +1,6 @@
 #include "pipe/phase.h"
 
+#include "base/ascending.h"
 #include "base/die.h"
 #include "optics/angles.h"
 
@@ -298,12 +299,6 @@ static void thin_means(struct job *j)
 	j->n = (int)n;
 	free(p);
 	free(keep);
-}
-
-static int ascending(const void *a, const void *b)
-{
-	double x = *(const double *)a, y = *(const double *)b;
-	return (x > y) - (x < y);
 }
 
 static void choose_angles(struct job *j)

@@ -1,5 +1,7 @@
 #include "pipe/sizes.h"
 
+#include "base/ascending.h"
+#include "base/cpu.h"
 #include "base/die.h"
 #include "optics/ior.h"
 
@@ -77,12 +79,6 @@ static void indices(struct sizes *s, const struct sizes_options *o)
 	}
 }
 
-static int ascending(const void *a, const void *b)
-{
-	double x = *(const double *)a, y = *(const double *)b;
-	return (x > y) - (x < y);
-}
-
 /* Tables are looked up by wavelength, and match within 1e-9: a second of the same could not be told from the first. */
 static void wavelengths_differ(const struct reals *w)
 {
@@ -112,6 +108,7 @@ void sizes_require(const struct sizes_options *o)
 
 void sizes_threads(const struct sizes_options *o)
 {
+	cpu_level();
 	omp_set_num_threads((int)o->threads);
 }
 

@@ -52,7 +52,7 @@ double sizes_x(double radius, double wavelength, double host);
 /* sizes_require - die where --particle, or what gives the wavelength, is missing, or options exclude each other. */
 void sizes_require(const struct sizes_options *o);
 
-/* sizes_threads - set the number of OpenMP threads. */
+/* sizes_threads - settle what computes: the number of OpenMP threads, and that MOTES_CPU, if set, is what this processor can. */
 void sizes_threads(const struct sizes_options *o);
 
 /* sizes_input - the table named by operand (NULL: standard input); NULL where the options give the sizes themselves, and

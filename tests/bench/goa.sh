@@ -6,8 +6,7 @@
 #        the least of several. Of this machine and this run: only ratios say something.
 # ratio: over Mie's of the same size.
 # aim:   us to find the rays of an angle, once for an index.
-# Then whole commands for 256 sizes around 3000 and 32 around 3e4, 1801 angles, in units of mie-phase's direct sum: tools.tsv. Where
-# mie-phase has no faster way for --angles than for --theta, both are the direct sum.
+# Then whole commands for 256 sizes around 3000 and 32 around 3e4, 1801 angles, in units of mie-phase's direct sum: tools.tsv.
 # usage, by tests/bench/run: goa.sh OUT
 out=$1
 "$MOTES_TESTS/goa_plus" --bench | tee goa.tsv
