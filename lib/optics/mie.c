@@ -5,7 +5,6 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* one sphere, in plain doubles */
 #define LANES 1
@@ -23,22 +22,57 @@ int mie_terms(double x, double complex m)
 	return (int)ceil(fmax(n, fmin(y + 2, x + t * edge + 10)));
 }
 
+/* Arrays of a chunk of orders, from the one before its first. */
+struct chunk {
+	double psi[1 + MIE_CHUNK + MIE_SPARE], chi[1 + MIE_CHUNK + MIE_SPARE], p[1 + MIE_CHUNK + MIE_SPARE];
+};
+
+/* Climb over orders l .. l + count - 1. */
+INLINE void climb_chunk(struct climb *k, const struct glass *g, const struct ratios *e, int with_p, int l, int count, int from_x,
+                        struct chunk *c)
+{
+	struct climb own = *k;
+	for (int i = 0; i < count; i++, l++) {
+		climb_to(&own, g, with_p, l, 2.0 * l - 1, from_x, from_x ? e->x[l - 1] : 0);
+		c->psi[i + 1] = own.psi;
+		c->chi[i + 1] = own.chi;
+		if (with_p)
+			c->p[i + 1] = own.p;
+	}
+	*k = own;
+}
+
 int mie_coefficients(double x, double complex m, int n, double complex *a, double complex *b)
 {
+	const struct mie_lanes *lanes = mie_lanes();
 	struct spheres s = { { x }, { creal(m) }, { cimag(m) }, { n }, n, cimag(m) > 0, mie_near(m) };
-	double *room = malloc(3 * ((size_t)n + 2) * sizeof *room);
+	double *room = malloc((RATIOS * ((size_t)n + 2) + MIE_SPARE) * sizeof *room);
+	struct chunk c = { { 0 }, { 0 }, { 0 } };
+	double w[4][MIE_CHUNK + MIE_SPARE];
 	if (!room)
 		return -1;
 	struct ratios e = ratios_of(&s, room);
-	struct climb k = climb_start(&s);
+	struct glass g = glass_of(s.absorb, x, creal(m), cimag(m), e.beyond[0], n);
+	struct climb k;
+	int with_p = !s.absorb && !s.near;
+	climb_start(&k, with_p, 0, x, creal(m) * x);
 	a[0] = b[0] = 0;
-	for (int l = 1; l <= n; l++) {
-		double al[2], bl[2];
-		int outside = l >= e.outside;
-		climb_to(&k, &s, &e, l, outside);
-		climb_waves(&k, &s, &e, l, 0, outside, al, bl);
-		a[l] = CMPLX(al[0], al[1]);
-		b[l] = CMPLX(bl[0], bl[1]);
+	for (int l = 1, count; l <= n; l += count) {
+		count = n + 1 - l < MIE_CHUNK ? n + 1 - l : MIE_CHUNK;
+		c.psi[0] = k.psi;
+		c.chi[0] = k.chi;
+		c.p[0] = k.p;
+		if (l + count <= x)
+			with_p ? climb_chunk(&k, &g, &e, 1, l, count, 0, &c) : climb_chunk(&k, &g, &e, 0, l, count, 0, &c);
+		else
+			climb_chunk(&k, &g, &e, with_p, l, count, 1, &c);
+		struct mie_row row = { s.absorb, s.near, l, count, x, creal(m), cimag(m), e.beyond[0], c.psi, c.chi, c.p,
+			e.x + l, e.y_re + l, e.y_im + l, e.size + l, e.re + l, e.im + l, w[0], w[1], w[2], w[3] };
+		lanes->waves(&row);
+		for (int i = 0; i < count; i++) {
+			a[l + i] = CMPLX(w[0][i], w[1][i]);
+			b[l + i] = CMPLX(w[2][i], w[3][i]);
+		}
 	}
 	free(room);
 	return 0;
@@ -78,16 +112,20 @@ double mie_error_of_sums(double x, int lossless, const struct mie_sums *s)
 
 struct efficiencies mie_efficiencies(double x, int lossless, int n, const double complex *a, const double complex *b, double *error)
 {
-	struct solved q = { { 0 }, { 0 }, { 0 }, { 0 }, { 0 } };
-	struct spheres s = { .absorb = !lossless };
-	double old_a[2] = { 0, 0 }, old_b[2] = { 0, 0 };
-	for (int l = 1; l <= n; l++) {
-		double al[2] = { creal(a[l]), cimag(a[l]) }, bl[2] = { creal(b[l]), cimag(b[l]) };
-		solved_add(&q, &s, l, 0, al, bl, old_a, old_b);
-		memcpy(old_a, al, sizeof al);
-		memcpy(old_b, bl, sizeof bl);
+	const struct mie_lanes *lanes = mie_lanes();
+	struct mie_sums sums = { 0 };
+	double w[4][1 + MIE_CHUNK + MIE_SPARE] = { { 0 } };
+	for (int l = 1, count; l <= n; l += count) {
+		count = n + 1 - l < MIE_CHUNK ? n + 1 - l : MIE_CHUNK;
+		for (int i = l > 1 ? 0 : 1; i <= count; i++) {
+			w[0][i] = creal(a[l - 1 + i]);
+			w[1][i] = cimag(a[l - 1 + i]);
+			w[2][i] = creal(b[l - 1 + i]);
+			w[3][i] = cimag(b[l - 1 + i]);
+		}
+		struct mie_part part = { !lossless, l, count, w[0], w[1], w[2], w[3] };
+		lanes->sums(&part, &sums);
 	}
-	struct mie_sums sums = { q.ext[0], q.sca[0], q.asym[0], q.back_re[0], q.back_im[0] };
 	if (error)
 		*error = mie_error_of_sums(x, lossless, &sums);
 	return mie_of_sums(x, lossless, &sums);

@@ -4,7 +4,7 @@
 #define OPTICS_MIE_LANES_H
 
 #define MIE_BLOCK 32           /* spheres side by side */
-#define MIE_BLOCK_TERMS 20000  /* of these, so that a block's ratios stay within 3 x 5 MB */
+#define MIE_BLOCK_TERMS 10000  /* of these, so that a block's room stays within 16 MB */
 
 #include "base/cpu.h"
 #include "optics/mie.h"
@@ -33,11 +33,31 @@ struct mie_block {
 	int absorbs, near;         /* some Im m > 0, else m_im is not looked at; all |m - 1| < MIE_NEAR */
 	double x[MIE_BLOCK], m_re[MIE_BLOCK], m_im[MIE_BLOCK];
 	int terms[MIE_BLOCK];      /* of each, mie_terms */
-	double *ratios;            /* room, mie_block_room(largest of terms) doubles, aligned to 64 bytes */
+	double *room;              /* mie_block_room(largest of terms) doubles, aligned to 64 bytes */
 	struct mie_sums sums[MIE_BLOCK];
 };
 
-#define mie_block_room(terms) (3 * ((size_t)(terms) + 2) * MIE_BLOCK)
+#define mie_block_room(terms) ((6 * MIE_BLOCK + 5) * ((size_t)(terms) + 16))
+
+/* Orders first .. first + count - 1 of one sphere side by side, from arrays that begin with the first (mie_solve.h). They are read and
+ * written up to MIE_SPARE beyond the last. */
+#define MIE_SPARE 8
+
+struct mie_row {
+	int absorbs, near, first, count;
+	double x, m_re, m_im, beyond;
+	const double *psi, *chi, *p;          /* these from first - 1 */
+	const double *ex, *er, *ei, *size, *re, *im;
+	double *a_re, *a_im, *b_re, *b_im;    /* returned */
+};
+
+/* Coefficients of orders first .. first + count - 1; arrays from first - 1, where they are those of that order, or 0. */
+struct mie_part {
+	int absorbs, first, count;
+	const double *a_re, *a_im, *b_re, *b_im;
+};
+
+#define MIE_CHUNK 512          /* at most count of these */
 
 #define MIE_ANGLES 32
 
@@ -50,6 +70,9 @@ enum { MIE_FRONT = 1, MIE_BEHIND = 2, MIE_PAIR = 3 };
 
 struct mie_lanes {
 	void (*block)(struct mie_block *b);
+	void (*waves)(const struct mie_row *r);
+	/* sums += those of some orders, in order: the same bits as in a block */
+	void (*sums)(const struct mie_part *p, struct mie_sums *sums);
 	/* Sums over l of s_l (pi_l + tau_l)/l and d_l (pi_l - tau_l)/l at MIE_ANGLES angles in [0, 90] deg given by c = 1 - cos theta.
 	 * Given:    k[n+1], k[0] unused; sides: with the factors for angles in front, for those behind, or first with these, then with those
 	 * Returned: out[4, or 8 of a pair]: real and imaginary part of the one, then of the other sum */

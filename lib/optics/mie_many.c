@@ -33,8 +33,8 @@ static int together(const struct mie_lanes *lanes, const struct item *item, int 
                     double *error)
 {
 	struct mie_block b = { .absorbs = item->kind & ABSORBS, .near = item->kind & NEAR };
-	b.ratios = aligned_alloc(64, mie_block_room(item[n - 1].terms) * sizeof *b.ratios);
-	if (!b.ratios)
+	b.room = aligned_alloc(64, mie_block_room(item[n - 1].terms) * sizeof *b.room);
+	if (!b.room)
 		return 1;
 	for (int i = 0; i < MIE_BLOCK; i++) {    /* the last one again where there are fewer */
 		const struct item *own = &item[i < n ? i : n - 1];
@@ -49,7 +49,7 @@ static int together(const struct mie_lanes *lanes, const struct item *item, int 
 		q[at] = mie_of_sums(x[at], !b.absorbs, &b.sums[i]);
 		error[at] = mie_error_of_sums(x[at], !b.absorbs, &b.sums[i]);
 	}
-	free(b.ratios);
+	free(b.room);
 	return 0;
 }
 
