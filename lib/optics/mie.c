@@ -5,6 +5,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* one sphere, in plain doubles */
 #define LANES 1
@@ -22,9 +23,10 @@ int mie_terms(double x, double complex m)
 	return (int)ceil(fmax(n, fmin(y + 2, x + t * edge + 10)));
 }
 
-/* Arrays of a chunk of orders, from the one before its first. */
+/* A chunk of orders: arrays from the one before its first. */
 struct chunk {
 	double psi[1 + MIE_CHUNK + MIE_SPARE], chi[1 + MIE_CHUNK + MIE_SPARE], p[1 + MIE_CHUNK + MIE_SPARE];
+	double wave[4][1 + MIE_CHUNK + MIE_SPARE], sca[MIE_CHUNK + MIE_SPARE];
 };
 
 /* Climb over orders l .. l + count - 1. */
@@ -32,23 +34,28 @@ INLINE void climb_chunk(struct climb *k, const struct glass *g, const struct rat
                         struct chunk *c)
 {
 	struct climb own = *k;
-	for (int i = 0; i < count; i++, l++) {
+	c->psi[0] = own.psi;
+	c->chi[0] = own.chi;
+	c->p[0] = own.p;
+	for (int i = 1; i <= count; i++, l++) {
 		climb_to(&own, g, with_p, l, 2.0 * l - 1, from_x, from_x ? e->x[l - 1] : 0);
-		c->psi[i + 1] = own.psi;
-		c->chi[i + 1] = own.chi;
+		c->psi[i] = own.psi;
+		c->chi[i] = own.chi;
 		if (with_p)
-			c->p[i + 1] = own.p;
+			c->p[i] = own.p;
 	}
 	*k = own;
 }
 
-int mie_coefficients(double x, double complex m, int n, double complex *a, double complex *b)
+/* The orders of one sphere, chunk after chunk to take: recurrences one order after the other, and from these the coefficients side by side. */
+static int by_orders(double x, double complex m, int n, int weighted, void (*take)(const struct mie_lanes *, const struct mie_row *, void *),
+                     void *context)
 {
 	const struct mie_lanes *lanes = mie_lanes();
 	struct spheres s = { { x }, { creal(m) }, { cimag(m) }, { n }, n, cimag(m) > 0, mie_near(m) };
 	double *room = malloc((RATIOS * ((size_t)n + 2) + MIE_SPARE) * sizeof *room);
-	struct chunk c = { { 0 }, { 0 }, { 0 } };
-	double w[4][MIE_CHUNK + MIE_SPARE];
+	struct chunk c;
+	memset(&c, 0, sizeof c);
 	if (!room)
 		return -1;
 	struct ratios e = ratios_of(&s, room);
@@ -56,26 +63,55 @@ int mie_coefficients(double x, double complex m, int n, double complex *a, doubl
 	struct climb k;
 	int with_p = !s.absorb && !s.near;
 	climb_start(&k, with_p, 0, x, creal(m) * x);
-	a[0] = b[0] = 0;
 	for (int l = 1, count; l <= n; l += count) {
 		count = n + 1 - l < MIE_CHUNK ? n + 1 - l : MIE_CHUNK;
-		c.psi[0] = k.psi;
-		c.chi[0] = k.chi;
-		c.p[0] = k.p;
-		if (l + count <= x)
-			with_p ? climb_chunk(&k, &g, &e, 1, l, count, 0, &c) : climb_chunk(&k, &g, &e, 0, l, count, 0, &c);
-		else
+		if (l + count > x)
 			climb_chunk(&k, &g, &e, with_p, l, count, 1, &c);
-		struct mie_row row = { s.absorb, s.near, l, count, x, creal(m), cimag(m), e.beyond[0], c.psi, c.chi, c.p,
-			e.x + l, e.y_re + l, e.y_im + l, e.size + l, e.re + l, e.im + l, w[0], w[1], w[2], w[3] };
+		else if (with_p)
+			climb_chunk(&k, &g, &e, 1, l, count, 0, &c);
+		else
+			climb_chunk(&k, &g, &e, 0, l, count, 0, &c);
+		struct mie_row row = { s.absorb, s.near, l, count, weighted, x, creal(m), cimag(m), e.beyond[0], c.psi, c.chi, c.p,
+			e.x + l, e.y_re + l, e.y_im + l, e.size + l, e.re + l, e.im + l,
+			c.wave[0] + 1, c.wave[1] + 1, c.wave[2] + 1, c.wave[3] + 1, c.sca };
 		lanes->waves(&row);
-		for (int i = 0; i < count; i++) {
-			a[l + i] = CMPLX(w[0][i], w[1][i]);
-			b[l + i] = CMPLX(w[2][i], w[3][i]);
-		}
+		take(lanes, &row, context);
+		for (int i = 0; i < 4; i++)
+			c.wave[i][0] = c.wave[i][count];
 	}
 	free(room);
 	return 0;
+}
+
+struct coefficients {
+	double complex *a, *b;
+};
+
+static void take_coefficients(const struct mie_lanes *lanes, const struct mie_row *r, void *context)
+{
+	struct coefficients *to = context;
+	(void)lanes;
+	for (int i = 0; i < r->count; i++) {
+		to->a[r->first + i] = CMPLX(r->a_re[i], r->a_im[i]);
+		to->b[r->first + i] = CMPLX(r->b_re[i], r->b_im[i]);
+	}
+}
+
+int mie_coefficients(double x, double complex m, int n, double complex *a, double complex *b)
+{
+	a[0] = b[0] = 0;
+	return by_orders(x, m, n, 0, take_coefficients, &(struct coefficients){ a, b });
+}
+
+static void take_sums(const struct mie_lanes *lanes, const struct mie_row *r, void *context) { lanes->sums(r, context); }
+
+int mie_alone(double x, double complex m, int n, struct efficiencies *q, double *error)
+{
+	struct mie_sums sums = { 0 };
+	int bad = by_orders(x, m, n, 1, take_sums, &sums);
+	*q = mie_of_sums(x, cimag(m) == 0, &sums);
+	*error = mie_error_of_sums(x, cimag(m) == 0, &sums);
+	return bad;
 }
 
 int mie_lossless(int n, const double complex *a, const double complex *b)
@@ -114,17 +150,24 @@ struct efficiencies mie_efficiencies(double x, int lossless, int n, const double
 {
 	const struct mie_lanes *lanes = mie_lanes();
 	struct mie_sums sums = { 0 };
-	double w[4][1 + MIE_CHUNK + MIE_SPARE] = { { 0 } };
+	struct chunk c;
+	memset(&c, 0, sizeof c);
 	for (int l = 1, count; l <= n; l += count) {
 		count = n + 1 - l < MIE_CHUNK ? n + 1 - l : MIE_CHUNK;
-		for (int i = l > 1 ? 0 : 1; i <= count; i++) {
-			w[0][i] = creal(a[l - 1 + i]);
-			w[1][i] = cimag(a[l - 1 + i]);
-			w[2][i] = creal(b[l - 1 + i]);
-			w[3][i] = cimag(b[l - 1 + i]);
+		for (int i = 1; i <= count; i++) {
+			int at = l + i - 1;
+			double w = 2.0 * at + 1;
+			c.wave[0][i] = w * creal(a[at]);
+			c.wave[1][i] = w * cimag(a[at]);
+			c.wave[2][i] = w * creal(b[at]);
+			c.wave[3][i] = w * cimag(b[at]);
+			c.sca[i - 1] = w * (norm2(a[at]) + norm2(b[at]));
 		}
-		struct mie_part part = { !lossless, l, count, w[0], w[1], w[2], w[3] };
-		lanes->sums(&part, &sums);
+		struct mie_row row = { .absorbs = !lossless, .first = l, .count = count, .weighted = 1, .a_re = c.wave[0] + 1, .a_im = c.wave[1] + 1,
+			.b_re = c.wave[2] + 1, .b_im = c.wave[3] + 1, .sca = c.sca };
+		lanes->sums(&row, &sums);
+		for (int i = 0; i < 4; i++)
+			c.wave[i][0] = c.wave[i][count];
 	}
 	if (error)
 		*error = mie_error_of_sums(x, lossless, &sums);

@@ -8,33 +8,28 @@
 
 /* ------------------------------------------------------------------ sums */
 
-/* What the sums of an order are multiplied by: l, 2l+1, (-1)^l (2l+1), (l-1)(l+1)/l, (2l+1)/(l(l+1)). */
-enum { L, TWICE, TURNED, NEXT, CROSS, WEIGHTS };
+/* Coefficients stand in the sums with the factor w = 2l+1. l, w, (l-1)(l+1)/l over w and the w before, (2l+1)/(l(l+1)) over w^2. */
+enum { L, W, NEXT, CROSS, WEIGHTS };
 
 INLINE void weights(double first, vec w[WEIGHTS])
 {
-	truths odd;
 	for (int i = 0; i < LANES; i++)
 		LANE(&w[L], i) = first + i;
-	vec l = w[L], h = 0.5 * l;
-	w[TWICE] = 2.0 * l + 1.0;
-	odd = ((h + 0x1p52) - 0x1p52 != h);    /* a half is rounded away */
-	w[TURNED] = PICK(odd, -w[TWICE], w[TWICE]);
-	w[NEXT] = (l - 1.0) * (l + 1.0) / l;
-	w[CROSS] = w[TWICE] / (l * (l + 1.0));
+	vec l = w[L];
+	w[W] = 2.0 * l + 1.0;
+	w[NEXT] = (l - 1.0) * (l + 1.0) / (l * w[W] * (w[W] - 2.0));
+	w[CROSS] = 1.0 / (l * (l + 1.0) * w[W]);
 }
 
 enum { EXT, SCA, ASYM, BACK_RE, BACK_IM, SUMS };
 
-/* What an order adds; old: the order before. */
-INLINE void addends(int absorb, const vec w[WEIGHTS], const vec *a, const vec *b, const vec *old_a, const vec *old_b, vec t[SUMS])
+/* What an order adds, but for scattering; old: the order before. */
+INLINE void addends(const vec w[WEIGHTS], const vec *a, const vec *b, const vec *old_a, const vec *old_b, vec t[SUMS])
 {
-	t[EXT] = w[TWICE] * (a[0] + b[0]);
-	if (absorb)
-		t[SCA] = w[TWICE] * (a[0] * a[0] + a[1] * a[1] + b[0] * b[0] + b[1] * b[1]);
+	t[EXT] = a[0] + b[0];
 	t[ASYM] = w[NEXT] * (old_a[0] * a[0] + old_a[1] * a[1] + old_b[0] * b[0] + old_b[1] * b[1]) + w[CROSS] * (a[0] * b[0] + a[1] * b[1]);
-	t[BACK_RE] = w[TURNED] * (a[0] - b[0]);
-	t[BACK_IM] = w[TURNED] * (a[1] - b[1]);
+	t[BACK_RE] = a[0] - b[0];
+	t[BACK_IM] = a[1] - b[1];
 }
 
 /* ------------------------------------------------------------------ many spheres */
@@ -68,12 +63,15 @@ INLINE void orders(struct many *many, const struct ratios *e, int u, const doubl
 			f.re = e->re[i];
 			f.im = e->im[i];
 		}
-		climb_to(&m.k, &m.g, with_p, w[L][l], w[TWICE][l - 1], from_x, from_x ? e->x[i - UNROLL] : each(0));
-		waves_of(absorb, near, from_x, from_y, &m.g, weight[L], &m.k, &f, a, b);
-		addends(absorb, weight, a, b, m.old_a, m.old_b, t);
-		for (int j = 0; j < SUMS; j++)
-			if (absorb || j != SCA)
-				m.sum[j] += t[j];
+		climb_to(&m.k, &m.g, with_p, w[L][l], w[W][l - 1], from_x, from_x ? e->x[i - UNROLL] : each(0));
+		waves_of(absorb, near, from_x, from_y, &m.g, weight[L], weight[W], &m.k, &f, a, b, &t[SCA]);
+		addends(weight, a, b, m.old_a, m.old_b, t);
+		m.sum[EXT] += t[EXT];
+		m.sum[ASYM] += t[ASYM];
+		m.sum[BACK_RE] = t[BACK_RE] - m.sum[BACK_RE];
+		m.sum[BACK_IM] = t[BACK_IM] - m.sum[BACK_IM];
+		if (absorb)
+			m.sum[SCA] += t[SCA];
 		for (int c = 0; c < 2; c++) {
 			m.old_a[c] = a[c];
 			m.old_b[c] = b[c];
@@ -127,7 +125,7 @@ static void block(struct mie_block *b)
 		for (int j = 0; j < WEIGHTS; j++)
 			memcpy(w[j] + l, &v[j], sizeof(vec));
 	}
-	const double *const read[WEIGHTS] = { w[0], w[1], w[2], w[3], w[4] };
+	const double *const read[WEIGHTS] = { w[0], w[1], w[2], w[3] };
 	for (int first = 0; first < MIE_BLOCK; first += WIDTH)
 		if (b->near && b->absorbs)
 			spheres(b, first, read, 1, 1);
@@ -148,17 +146,21 @@ INLINE vec load(const double *p)
 	return v;
 }
 
+INLINE void store(double *p, vec v) { memcpy(p, &v, sizeof v); }
+
 INLINE void row(const struct mie_row *r, int absorb, int near, int from_x, int from_y)
 {
 	struct glass g = glass_of(absorb, each(r->x), each(r->m_re), each(r->m_im), each(r->beyond), each(INFINITY));
+	const int weighted = r->weighted;
 	for (int i = 0; i < r->count; i += LANES) {
 		struct climb k = { .psi_old = load(r->psi + i), .psi = load(r->psi + i + 1), .chi_old = load(r->chi + i), .chi = load(r->chi + i + 1) };
 		struct fallen f;
-		vec a[2], b[2], w[WEIGHTS];
+		vec a[2], b[2], sca, w[WEIGHTS];
 		weights(r->first + i, w);
 		if (!absorb && !near) {
 			k.p_old = load(r->p + i);
 			k.p = load(r->p + i + 1);
+			k.below = k.p_old * g.inv_re;
 		}
 		if (near || from_x)
 			f.ex = load(r->ex + i);
@@ -171,11 +173,13 @@ INLINE void row(const struct mie_row *r, int absorb, int near, int from_x, int f
 			f.re = load(r->re + i);
 			f.im = load(r->im + i);
 		}
-		waves_of(absorb, near, from_x, from_y, &g, w[L], &k, &f, a, b);
-		memcpy(r->a_re + i, &a[0], sizeof(vec));
-		memcpy(r->a_im + i, &a[1], sizeof(vec));
-		memcpy(r->b_re + i, &b[0], sizeof(vec));
-		memcpy(r->b_im + i, &b[1], sizeof(vec));
+		waves_of(absorb, near, from_x, from_y, &g, w[L], weighted ? w[W] : each(1), &k, &f, a, b, &sca);
+		store(r->a_re + i, a[0]);
+		store(r->a_im + i, a[1]);
+		store(r->b_re + i, b[0]);
+		store(r->b_im + i, b[1]);
+		if (absorb)
+			store(r->sca + i, sca);
 	}
 }
 
@@ -204,27 +208,29 @@ static void waves_of_one(const struct mie_row *r)
 		row_of(r, 0, 0);
 }
 
-static void sums_of_one(const struct mie_part *p, struct mie_sums *sums)
+static void sums_of_one(const struct mie_row *r, struct mie_sums *sums)
 {
 	double t[SUMS][MIE_CHUNK + MIE_SPARE];
-	for (int i = 0; i < p->count; i += LANES) {
-		const vec old_a[2] = { load(p->a_re + i), load(p->a_im + i) }, old_b[2] = { load(p->b_re + i), load(p->b_im + i) };
-		const vec a[2] = { load(p->a_re + i + 1), load(p->a_im + i + 1) }, b[2] = { load(p->b_re + i + 1), load(p->b_im + i + 1) };
+	for (int i = 0; i < r->count; i += LANES) {
+		const vec old_a[2] = { load(r->a_re + i - 1), load(r->a_im + i - 1) }, old_b[2] = { load(r->b_re + i - 1), load(r->b_im + i - 1) };
+		const vec a[2] = { load(r->a_re + i), load(r->a_im + i) }, b[2] = { load(r->b_re + i), load(r->b_im + i) };
 		vec w[WEIGHTS], own[SUMS];
-		weights(p->first + i, w);
-		own[SCA] = each(0);
-		addends(p->absorbs, w, a, b, old_a, old_b, own);
-		for (int j = 0; j < SUMS; j++)
-			memcpy(&t[j][i], &own[j], sizeof(vec));
+		weights(r->first + i, w);
+		addends(w, a, b, old_a, old_b, own);
+		store(&t[EXT][i], own[EXT]);
+		store(&t[ASYM][i], own[ASYM]);
+		store(&t[BACK_RE][i], own[BACK_RE]);
+		store(&t[BACK_IM][i], own[BACK_IM]);
 	}
 	struct mie_sums s = *sums;
-	for (int i = 0; i < p->count; i++) {
+	for (int i = 0; i < r->count; i++) {
 		s.ext += t[EXT][i];
-		s.sca += t[SCA][i];
 		s.asym += t[ASYM][i];
-		s.back_re += t[BACK_RE][i];
-		s.back_im += t[BACK_IM][i];
+		s.back_re = t[BACK_RE][i] - s.back_re;
+		s.back_im = t[BACK_IM][i] - s.back_im;
 	}
+	for (int i = 0; i < (r->absorbs ? r->count : 0); i++)
+		s.sca += r->sca[i];
 	*sums = s;
 }
 

@@ -18,17 +18,6 @@ static int by_cost(const void *a, const void *b)
 	return p->terms != q->terms ? (p->terms > q->terms ? 1 : -1) : p->at - q->at;
 }
 
-/* A sphere of too many terms for a block. */
-static int alone(double x, double complex m, int n, struct efficiencies *q, double *error)
-{
-	double complex *a = malloc(2 * ((size_t)n + 1) * sizeof *a);
-	int lossless = cimag(m) == 0, bad = !a || mie_coefficients(x, m, n, a, a + n + 1);
-	if (!bad)
-		*q = mie_efficiencies(x, lossless, n, a, a + n + 1, error);
-	free(a);
-	return bad;
-}
-
 static int together(const struct mie_lanes *lanes, const struct item *item, int n, const double *x, const double complex *m, struct efficiencies *q,
                     double *error)
 {
@@ -79,7 +68,7 @@ int mie_many(int n, const double *x, const double complex *m, struct efficiencie
 				first = last;
 			} else {
 				int at = item[first].at;
-				bad |= alone(x[at], m[at], item[first].terms, &q[at], &error[at]);
+				bad |= mie_alone(x[at], m[at], item[first].terms, &q[at], &error[at]);
 				first++;
 			}
 		}

@@ -117,42 +117,66 @@ INLINE vec to_one(vec a)
 
 /* p_l ~ psi_l(z), down from each lane's order `at`, where it is 1, E being at_r + i at_i; stored to l = n: |p_l|^2, and re and im of
  * p_{l-1} p_l*. Scaling by powers of 2 changes no digit. most, least: of `at`. */
+struct descent {
+	vec kr[UNROLL], ki[UNROLL];                                          /* (2l+1)/z */
+	vec vr[UNROLL], vi[UNROLL], tr[UNROLL], ti[UNROLL];    /* p_l, p_{l+1} */
+	vec re[UNROLL], im[UNROLL];                                          /* of p_l p_{l+1}* */
+};
+
+INLINE void descend_one(struct descent *d, int l, int least, int n, const vec *at, const vec *at_r, const vec *at_i, vec *size, vec *re, vec *im)
+{
+	EACH(u) {
+		if (l >= least) {
+			truths here = (at[u] == (double)l);
+			d->vr[u] = PICK(here, each(1), d->vr[u]);
+			d->vi[u] = PICK(here, each(0), d->vi[u]);
+			d->tr[u] = PICK(here, -at_r[u], d->tr[u]);
+			d->ti[u] = PICK(here, -at_i[u], d->ti[u]);
+			d->re[u] = PICK(here, -at_r[u], d->re[u]);
+			d->im[u] = PICK(here, at_i[u], d->im[u]);
+		}
+		vec kr = d->kr[u], ki = d->ki[u], vr = d->vr[u], vi = d->vi[u], v2 = vr * vr + vi * vi;
+		vec ur = (kr * vr - d->tr[u]) - ki * vi, ui = (kr * vi - d->ti[u]) + ki * vr;
+		d->re[u] = kr * v2 - d->re[u];
+		d->im[u] += ki * v2;
+		if (l <= n) {
+			size[l * UNROLL + u] = v2;
+			re[l * UNROLL + u] = d->re[u];
+			im[l * UNROLL + u] = d->im[u];
+		}
+		d->tr[u] = vr;
+		d->ti[u] = vi;
+		d->vr[u] = ur;
+		d->vi[u] = ui;
+	}
+}
+
 INLINE void descend(int most, int least, int n, const vec *inv_r, const vec *inv_i, const vec *at, const vec *at_r, const vec *at_i,
                     vec *size, vec *re, vec *im)
 {
-	vec vr[UNROLL], vi[UNROLL], tr[UNROLL], ti[UNROLL], w[UNROLL];
+	struct descent d;
 	EACH(u)
-		vr[u] = vi[u] = tr[u] = ti[u] = w[u] = each(0);
-	for (int l = most; l >= 1; l--) {
-		double k = 2.0 * l + 1;
+		d.vr[u] = d.vi[u] = d.tr[u] = d.ti[u] = d.re[u] = d.im[u] = each(0);
+	for (int l = (most + 1) & ~1; l >= 2; l -= 2) {
 		EACH(u) {
-			if (l >= least) {
-				truths here = (at[u] == (double)l);
-				vr[u] = PICK(here, each(1), vr[u]);
-				vi[u] = PICK(here, each(0), vi[u]);
-				tr[u] = PICK(here, -at_r[u], tr[u]);
-				ti[u] = PICK(here, -at_i[u], ti[u]);
-				w[u] = PICK(here, at_i[u], w[u]);
-			}
-			vec kr = k * inv_r[u], ki = k * inv_i[u], v2 = vr[u] * vr[u] + vi[u] * vi[u];
-			vec ur = (kr * vr[u] - tr[u]) - ki * vi[u], ui = (kr * vi[u] - ti[u]) + ki * vr[u];
-			w[u] += ki * v2;
-			if (l <= n) {
-				size[l * UNROLL + u] = v2;
-				re[l * UNROLL + u] = ur * vr[u] + ui * vi[u];
-				im[l * UNROLL + u] = w[u];
-			}
-			tr[u] = vr[u];
-			ti[u] = vi[u];
-			vr[u] = ur;
-			vi[u] = ui;
+			d.kr[u] = (2.0 * l + 1) * inv_r[u];
+			d.ki[u] = (2.0 * l + 1) * inv_i[u];
+		}
+		descend_one(&d, l, least, n, at, at_r, at_i, size, re, im);
+		EACH(u) {
+			d.kr[u] = d.kr[u] - 2.0 * inv_r[u];
+			d.ki[u] = d.ki[u] - 2.0 * inv_i[u];
+		}
+		descend_one(&d, l - 1, least, n, at, at_r, at_i, size, re, im);
+		EACH(u) {
 			if (l % 8 == 0) {      /* |p| grows by no more than 3 an order */
-				vec f = to_one(size_of(ur) + size_of(ui));
-				vr[u] *= f;
-				vi[u] *= f;
-				tr[u] *= f;
-				ti[u] *= f;
-				w[u] = w[u] * f * f;
+				vec f = to_one(size_of(d.vr[u]) + size_of(d.vi[u]));
+				d.vr[u] *= f;
+				d.vi[u] *= f;
+				d.tr[u] *= f;
+				d.ti[u] *= f;
+				d.re[u] = d.re[u] * f * f;
+				d.im[u] = d.im[u] * f * f;
 			}
 		}
 	}
@@ -282,8 +306,9 @@ INLINE struct ratios ratios_of(const struct spheres *s, vec *room)
 /* What does not change with the order, of a vector of spheres. */
 struct glass {
 	vec x, beyond, terms, inv_x, m_re, m_im;
-	vec inv_re, inv_im, iy_re, iy_im;    /* 1/m, 1/y */
-	vec c_re, c_im, fall;                /* (1 - 1/m^2)/x, Re 1/m - 1 */
+	vec inv_re, inv_im, norm, fall;      /* 1/m, |m|^2, Re 1/m - 1 */
+	vec c_re, c_im;                      /* (1 - 1/m^2)/x */
+	vec cm_re, cm_im;                    /* |m|^2 times that */
 };
 
 INLINE struct glass glass_of(int absorb, vec x, vec m_re, vec m_im, vec beyond, vec terms)
@@ -291,27 +316,26 @@ INLINE struct glass glass_of(int absorb, vec x, vec m_re, vec m_im, vec beyond, 
 	struct glass g = { .x = x, .beyond = beyond, .terms = terms, .inv_x = 1.0 / x, .m_re = m_re, .m_im = m_im };
 	if (absorb) {
 		vec m2 = m_re * m_re + m_im * m_im, vr = m_re / m2, vi = -(m_im / m2), v2r = vr * vr - vi * vi, v2i = 2.0 * (vr * vi);
-		vec yr = m_re * x, yi = m_im * x, r = 1.0 / (yr * yr + yi * yi);
 		g.inv_re = vr;
 		g.inv_im = vi;
-		g.iy_re = yr * r;
-		g.iy_im = -(yi * r);
+		g.norm = m2;
 		g.c_re = (((m_re - 1.0) * (m_re + 1.0) - m_im * m_im) * v2r - 2.0 * (m_re * m_im) * v2i) * g.inv_x;    /* (m^2 - 1)/m^2 */
 		g.c_im = -v2i * g.inv_x;
+		g.cm_re = g.c_re * m2;
+		g.cm_im = g.c_im * m2;
 		g.fall = (m_re * (1.0 - m_re) - m_im * m_im) / m2;
 	} else {
 		g.inv_re = 1.0 / m_re;
-		g.iy_re = 1.0 / (m_re * x);
-		g.inv_im = g.iy_im = g.c_im = each(0);
+		g.inv_im = g.c_im = g.cm_re = g.cm_im = g.norm = each(0);
 		g.c_re = (m_re - 1.0) * (m_re + 1.0) * (g.inv_re * g.inv_re) * g.inv_x;
 		g.fall = (1.0 - m_re) * g.inv_re;
 	}
 	return g;
 }
 
-/* Riccati-Bessel functions of two neighbouring orders, old is l - 1; p, of y, where it ascends. */
+/* Riccati-Bessel functions of two neighbouring orders, old is l - 1; p, of y, where it ascends, and p_{l-1}/m. */
 struct climb {
-	vec psi_old, psi, chi_old, chi, p_old, p;
+	vec psi_old, psi, chi_old, chi, p_old, p, below;
 };
 
 /* Lane i at order 0; y: where p ascends. */
@@ -338,7 +362,8 @@ INLINE void climb_to(struct climb *k, const struct glass *g, int with_p, double 
 	k->chi_old = k->chi;
 	k->chi = chi;
 	if (with_p) {
-		vec p = odd * g->iy_re * k->p - k->p_old;
+		vec below = k->p * g->inv_re, p = w * below - k->p_old;
+		k->below = below;
 		k->p_old = k->p;
 		k->p = p;
 	}
@@ -349,13 +374,15 @@ struct fallen {
 	vec ex, er, ei, size, re, im;
 };
 
-/* a_l, b_l: a[0] real part, a[1] imaginary part. absorb, near: as of spheres; from_x, from_y: some has l >= x, l >= |y|. */
-INLINE void waves_of(int absorb, int near, int from_x, int from_y, const struct glass *g, vec l, const struct climb *k, const struct fallen *e,
-                     vec *a, vec *b)
+/* a_l, b_l times `weight`: a[0] real part, a[1] imaginary part; and weight (|a_l|^2 + |b_l|^2), absorbing spheres only. absorb, near: as of
+ * spheres; from_x, from_y: some has l >= x, l >= |y|. */
+INLINE void waves_of(int absorb, int near, int from_x, int from_y, const struct glass *g, vec l, vec weight, const struct climb *k,
+                     const struct fallen *e, vec *a, vec *b, vec *sca)
 {
 	vec psi = k->psi, chi = k->chi, mr = g->m_re, mi = g->m_im;
-	vec far, fai = each(0), fbr, fbi = each(0), size = each(1);           /* f_a, f_b times size */
-	vec ear = each(0), eai = each(0), ebr = each(0), ebi = each(0);    /* f_a, f_b less (2l+1)/x, from E */
+	vec far, fai = each(0), fbr, fbi = each(0), sa, sb;                   /* f_a times sa, f_b times sb */
+	vec ear = each(0), eai = each(0), ebr = each(0), ebi = each(0);    /* f_a, f_b less t = (2l+1)/x, from E */
+	vec t = (2.0 * l + 1.0) * g->inv_x;
 	truths beyond = (g->beyond <= l), outside = (g->x <= l);
 	if (near || from_y) {
 		vec er = near ? e->er + e->ex : e->er, ei = e->ei;
@@ -368,22 +395,23 @@ INLINE void waves_of(int absorb, int near, int from_x, int from_y, const struct 
 			ebi = er * mi + ei * mr;
 		}
 	}
-	vec t = (2.0 * l + 1.0) * g->inv_x;
 	if (near) {
+		sa = sb = each(1);
 		far = ear + t;
 		fai = eai;
 		fbr = ebr + t;
 		fbi = ebi;
-	} else if (absorb) {
-		vec re = e->re, im = e->im;
-		size = e->size;
-		far = re * g->inv_re - im * g->inv_im + l * g->c_re * size;
-		fai = re * g->inv_im + im * g->inv_re + l * g->c_im * size;
-		fbr = re * mr - im * mi;
-		fbi = re * mi + im * mr;
+	} else if (absorb) {           /* 1/m = m* / |m|^2 */
+		vec rr = e->re * mr, ii = e->im * mi, ri = e->re * mi, ir = e->im * mr, size = l * e->size;
+		sa = e->size * g->norm;
+		sb = e->size;
+		far = rr + ii + size * g->cm_re;
+		fai = ir - ri + size * g->cm_im;
+		fbr = rr - ii;
+		fbi = ri + ir;
 	} else {
-		size = k->p;
-		far = k->p_old * g->inv_re + l * g->c_re * size;
+		sa = sb = k->p;
+		far = k->below + l * g->c_re * k->p;
 		fbr = k->p_old * mr;
 	}
 	if (!near && from_y) {
@@ -391,10 +419,22 @@ INLINE void waves_of(int absorb, int near, int from_x, int from_y, const struct 
 		fai = PICK(beyond, eai, fai);
 		fbr = PICK(beyond, ebr + t, fbr);
 		fbi = PICK(beyond, ebi, fbi);
-		size = PICK(beyond, each(1), size);
+		sa = PICK(beyond, each(1), sa);
+		sb = PICK(beyond, each(1), sb);
 	}
-	vec psi_old = size * k->psi_old, chi_old = size * k->chi_old;
-	vec A = far * psi - psi_old, B = fbr * psi - psi_old, C = far * chi - chi_old, D = fbr * chi - chi_old, r;
+	vec A, B, C, D, r, ra, rb;
+	if (absorb && !near) {
+		A = far * psi - sa * k->psi_old;
+		B = fbr * psi - sb * k->psi_old;
+		C = far * chi - sa * k->chi_old;
+		D = fbr * chi - sb * k->chi_old;
+	} else {
+		vec psi_old = near ? k->psi_old : sb * k->psi_old, chi_old = near ? k->chi_old : sb * k->chi_old;
+		A = far * psi - psi_old;
+		B = fbr * psi - psi_old;
+		C = far * chi - chi_old;
+		D = fbr * chi - chi_old;
+	}
 	if (near) {                /* but within x only where the error of psi does not count for more */
 		vec p = e->er * g->inv_re + e->ex * g->fall - (l + 1.0) * g->c_re, q = e->er * mr + e->ex * (mr - 1.0);
 		if (absorb) {
@@ -408,19 +448,22 @@ INLINE void waves_of(int absorb, int near, int from_x, int from_y, const struct 
 		B = PICK(outside & beyond, (ebr - e->ex) * psi, B);
 	}
 	if (absorb) {
-		vec Ai = fai * psi, Bi = fbi * psi, Ci = fai * chi, Di = fbi * chi, fa = size * fai, fb = size * fbi;
-		vec a2 = A * A + Ai * Ai - fa, b2 = B * B + Bi * Bi - fb;
-		vec na = a2 + (C * C + Ci * Ci - fa), nb = b2 + (D * D + Di * Di - fb);
-		r = 1.0 / (na * nb);
-		vec ra = r * nb, rb = r * na;
-		a[0] = a2 * ra;
+		vec Ai = fai * psi, Bi = fbi * psi, Ci = fai * chi, Di = fbi * chi, fa = sa * fai, fb = sb * fbi;
+		vec a2 = A * A + Ai * Ai, b2 = B * B + Bi * Bi, aa = a2 - fa, bb = b2 - fb;
+		vec na = aa + (C * C + Ci * Ci - fa), nb = bb + (D * D + Di * Di - fb);
+		r = weight / (na * nb);
+		ra = r * nb;
+		rb = r * na;
+		a[0] = aa * ra;
 		a[1] = (A * C + Ai * Ci) * ra;
-		b[0] = b2 * rb;
+		b[0] = bb * rb;
 		b[1] = (B * D + Bi * Di) * rb;
+		*sca = a2 * ra + b2 * rb;
 	} else {
 		vec a2 = A * A, b2 = B * B, na = a2 + C * C, nb = b2 + D * D;
-		r = 1.0 / (na * nb);
-		vec ra = r * nb, rb = r * na;
+		r = weight / (na * nb);
+		ra = r * nb;
+		rb = r * na;
 		a[0] = a2 * ra;
 		a[1] = A * C * ra;
 		b[0] = b2 * rb;
@@ -433,6 +476,8 @@ INLINE void waves_of(int absorb, int near, int from_x, int from_y, const struct 
 		a[c] = PICK(good, a[c], each(0));
 		b[c] = PICK(good, b[c], each(0));
 	}
+	if (absorb)
+		*sca = PICK(good, *sca, each(0));
 }
 
 #endif
