@@ -14,13 +14,18 @@
 
 int mie_terms(double x, double complex m)
 {
-	double edge = cbrt(x), y = sqrt(norm2(m)) * x, broad = cimag(m) * x;
+	double edge = cbrt(x), broad = cimag(m) * x;
 	double n = x + 7 * edge + 8;                  /* psi_l / chi_l < 1e-16, falling as e^(-1.89 t^(3/2)) at x + t x^(1/3) */
 	if (broad >= 1)
-		return (int)ceil(n);
+		return (int)n + 1;
 	/* Narrow resonances, below y, lift it by 1/chi_l^2, but by no more than absorption, which broadens them: < 1e-32 without any. */
-	double t = broad > 1e-18 ? cbrt(pow((36 - log(broad)) / 1.89, 2)) : 12;
-	return (int)ceil(fmax(n, fmin(y + 2, x + t * edge + 10)));
+	double t = 12;
+	if (broad > 1e-18) {
+		double fall = (36 - log(broad)) / 1.89;
+		t = cbrt(fall * fall);
+	}
+	double y = sqrt(norm2(m)) * x + 2, most = x + t * edge + 10, narrow = y < most ? y : most;
+	return (int)(n > narrow ? n : narrow) + 1;
 }
 
 /* A chunk of orders: arrays from the one before its first. */
@@ -60,9 +65,8 @@ static int by_orders(double x, double complex m, int n, int weighted, void (*tak
 		return -1;
 	struct ratios e = ratios_of(&s, room);
 	struct glass g = glass_of(s.absorb, x, creal(m), cimag(m), e.beyond[0], n);
-	struct climb k;
 	int with_p = !s.absorb && !s.near;
-	climb_start(&k, with_p, 0, x, creal(m) * x);
+	struct climb k = climb_start(&g, with_p);
 	for (int l = 1, count; l <= n; l += count) {
 		count = n + 1 - l < MIE_CHUNK ? n + 1 - l : MIE_CHUNK;
 		if (l + count > x)
@@ -141,9 +145,9 @@ double mie_error_of_sums(double x, int lossless, const struct mie_sums *s)
 {
 	/* The largest coefficient is about (4/9) |m-1| x^3 where x is small, |m-1| x where it is large and m near 1; of all, the sum of
 	 * (2l+1) |a|^2 tells: 3 |a_1|^2 or about x^2 times the largest. */
-	double size = sqrt((lossless ? s->ext : s->sca) / fmax(3, x * x));
-	double contrast = fmin(1, size / fmin(1, 4.0 / 9 * x * x * x) / fmax(1, x));
-	return 2 * DBL_EPSILON * (10 + x + 1 / contrast);
+	double volume = 4.0 / 9 * x * x * x, full = (volume < 1 ? volume : 1) * (x > 1 ? x : 1);
+	double flat = full / sqrt((lossless ? s->ext : s->sca) / (x * x > 3 ? x * x : 3));
+	return 2 * DBL_EPSILON * (10 + x + (flat > 1 ? flat : 1));
 }
 
 struct efficiencies mie_efficiencies(double x, int lossless, int n, const double complex *a, const double complex *b, double *error)

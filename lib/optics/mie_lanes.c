@@ -93,8 +93,7 @@ INLINE void spheres(struct mie_block *b, int first, const double *const w[WEIGHT
 	struct ratios e = ratios_of(&s, (vec *)b->room);
 	for (int u = 0; u < UNROLL; u++) {
 		struct many m = { .g = glass_of(absorb, s.x[u], s.m_re[u], s.m_im[u], e.beyond[u], s.terms[u]) };
-		for (int i = 0; i < LANES; i++)
-			climb_start(&m.k, !absorb && !near, i, LANE(&s.x[u], i), LANE(&s.m_re[u], i) * LANE(&s.x[u], i));
+		m.k = climb_start(&m.g, !absorb && !near);
 		int x = e.from_x, y = near ? s.most + 1 : e.from_y, low = x < y ? x : y, high = x < y ? y : x;
 		orders(&m, &e, u, w, absorb, near, 1, low - 1, 0, 0);
 		if (x < y)

@@ -21,7 +21,7 @@
 #ifndef OPTICS_MIE_SOLVE_H
 #define OPTICS_MIE_SOLVE_H
 
-#include "optics/vec.h"
+#include "optics/vec_sincos.h"
 
 #include <limits.h>
 #include <math.h>
@@ -30,11 +30,14 @@
 /* First order of the downward recurrence that leaves no trace at order n (rounding included) of its start with 0; even. With
  * l = |z| + t |z|^(1/3), psi_l/chi_l falls as e^(-1.89 t^(3/2)) beyond |z|; it must fall by 1e-17 from n on. Below |z|, where
  * |E_l|^2 = 1 - 2 l Im z / |z|^2 and less, an absorbing sphere forgets the start earlier: where the product of these is e^-45. */
+#ifndef START
+#define START 18
+#endif
 INLINE int ratios_start(int n, double re, double im)
 {
 	double z = sqrt(re * re + im * im), edge = cbrtf((float)z), t = (n - z) / edge;
-	double beyond = (n > z ? n : z) + 18 + (int)(edge * (t > 3 ? 14 / sqrt(t) : 8));
-	double forgotten = im > 0 ? sqrt((double)n * n + 45 * z * z / im) + 18 : INFINITY;
+	double beyond = (n > z ? n : z) + START + (int)(edge * (t > 3 ? 14 / sqrt(t) : 8));
+	double forgotten = im > 0 ? sqrt((double)n * n + 45 * z * z / im) + START : INFINITY;
 	return (int)(forgotten < beyond ? forgotten : beyond) & ~1;
 }
 
@@ -338,16 +341,17 @@ struct climb {
 	vec psi_old, psi, chi_old, chi, p_old, p, below;
 };
 
-/* Lane i at order 0; y: where p ascends. */
-INLINE void climb_start(struct climb *k, int with_p, int i, double x, double y)
+/* Order 0; p from sin y where it ascends. */
+INLINE struct climb climb_start(const struct glass *g, int with_p)
 {
-	double sine = sin(x), cosine = cos(x);
-	LANE(&k->psi_old, i) = cosine;
-	LANE(&k->psi, i) = sine;
-	LANE(&k->chi_old, i) = -sine;
-	LANE(&k->chi, i) = cosine;
-	LANE(&k->p_old, i) = with_p ? cos(y) : 0;
-	LANE(&k->p, i) = with_p ? sin(y) : 0;
+	struct climb k;
+	vec_sincos(g->x, &k.psi, &k.psi_old);
+	k.chi_old = -k.psi;
+	k.chi = k.psi_old;
+	k.p = k.p_old = k.below = each(0);
+	if (with_p)
+		vec_sincos(g->m_re * g->x, &k.p, &k.p_old);
+	return k;
 }
 
 /* A step to order l. psi upward while l < x, by ratios beyond (upward it would be lost there; ratios fail where psi passes a zero); chi upward.
