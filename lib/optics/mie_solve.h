@@ -30,14 +30,11 @@
 /* First order of the downward recurrence that leaves no trace at order n (rounding included) of its start with 0; even. With
  * l = |z| + t |z|^(1/3), psi_l/chi_l falls as e^(-1.89 t^(3/2)) beyond |z|; it must fall by 1e-17 from n on. Below |z|, where
  * |E_l|^2 = 1 - 2 l Im z / |z|^2 and less, an absorbing sphere forgets the start earlier: where the product of these is e^-45. */
-#ifndef START
-#define START 18
-#endif
 INLINE int ratios_start(int n, double re, double im)
 {
 	double z = sqrt(re * re + im * im), edge = cbrtf((float)z), t = (n - z) / edge;
-	double beyond = (n > z ? n : z) + START + (int)(edge * (t > 3 ? 14 / sqrt(t) : 8));
-	double forgotten = im > 0 ? sqrt((double)n * n + 45 * z * z / im) + START : INFINITY;
+	double beyond = (n > z ? n : z) + 18 + (int)(edge * (t > 3 ? 14 / sqrt(t) : 8));
+	double forgotten = im > 0 ? sqrt((double)n * n + 45 * z * z / im) + 18 : INFINITY;
 	return (int)(forgotten < beyond ? forgotten : beyond) & ~1;
 }
 
@@ -118,14 +115,13 @@ INLINE vec to_one(vec a)
 	return of_bits(twice - (bits_of(a) & exponent));
 }
 
-/* p_l ~ psi_l(z), down from each lane's order `at`, where it is 1, E being at_r + i at_i; stored to l = n: |p_l|^2, and re and im of
- * p_{l-1} p_l*. Scaling by powers of 2 changes no digit. most, least: of `at`. */
+/* p_l ~ psi_l(z), p_{l+1}, (2l+1)/z, and re and im of p_l p_{l+1}*. */
 struct descent {
-	vec kr[UNROLL], ki[UNROLL];                                          /* (2l+1)/z */
-	vec vr[UNROLL], vi[UNROLL], tr[UNROLL], ti[UNROLL];    /* p_l, p_{l+1} */
-	vec re[UNROLL], im[UNROLL];                                          /* of p_l p_{l+1}* */
+	vec vr[UNROLL], vi[UNROLL], tr[UNROLL], ti[UNROLL], kr[UNROLL], ki[UNROLL], re[UNROLL], im[UNROLL];
 };
 
+/* To p_{l-1}, (2l+1)/z being known. Lanes begin at their own order `at`, with p = 1 and E = at_r + i at_i; least: of `at`. Stored to l = n:
+ * |p_l|^2, and re and im of p_{l-1} p_l*. */
 INLINE void descend_one(struct descent *d, int l, int least, int n, const vec *at, const vec *at_r, const vec *at_i, vec *size, vec *re, vec *im)
 {
 	EACH(u) {
@@ -154,6 +150,7 @@ INLINE void descend_one(struct descent *d, int l, int least, int n, const vec *a
 	}
 }
 
+/* p down from order `most`, of `at`, to 1. Scaling by powers of 2 changes no digit. */
 INLINE void descend(int most, int least, int n, const vec *inv_r, const vec *inv_i, const vec *at, const vec *at_r, const vec *at_i,
                     vec *size, vec *re, vec *im)
 {
