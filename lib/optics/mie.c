@@ -1,11 +1,11 @@
 #include "optics/mie.h"
 
+#include "optics/lane_math.h"
 #include "optics/mie_lanes.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* one sphere, in plain doubles */
 #define LANES 1
@@ -14,7 +14,7 @@
 
 int mie_terms(double x, double complex m)
 {
-	double edge = cbrt(x), broad = cimag(m) * x;
+	double edge = lane_cbrt(x), broad = cimag(m) * x;
 	double n = x + 7 * edge + 8;                  /* psi_l / chi_l < 1e-16, falling as e^(-1.89 t^(3/2)) at x + t x^(1/3) */
 	if (broad >= 1)
 		return (int)n + 1;
@@ -22,7 +22,7 @@ int mie_terms(double x, double complex m)
 	double t = 12;
 	if (broad > 1e-18) {
 		double fall = (36 - log(broad)) / 1.89;
-		t = cbrt(fall * fall);
+		t = lane_cbrt(fall * fall);
 	}
 	double y = sqrt(norm2(m)) * x + 2, most = x + t * edge + 10, narrow = y < most ? y : most;
 	return (int)(n > narrow ? n : narrow) + 1;
@@ -53,16 +53,16 @@ INLINE void climb_chunk(struct climb *k, const struct glass *g, const struct rat
 }
 
 /* The orders of one sphere, chunk after chunk to take: recurrences one order after the other, and from these the coefficients side by side. */
-static int by_orders(double x, double complex m, int n, int weighted, void (*take)(const struct mie_lanes *, const struct mie_row *, void *),
-                     void *context)
+static int by_orders(const struct mie_lanes *lanes, double x, double complex m, int n, int weighted,
+                     void (*take)(const struct mie_lanes *, const struct mie_row *, void *), void *context)
 {
-	const struct mie_lanes *lanes = mie_lanes();
 	struct spheres s = { { x }, { creal(m) }, { cimag(m) }, { n }, n, cimag(m) > 0, mie_near(m) };
 	double *room = malloc((RATIOS * ((size_t)n + 2) + MIE_SPARE) * sizeof *room);
 	struct chunk c;
-	memset(&c, 0, sizeof c);
 	if (!room)
 		return -1;
+	for (int i = 0; i < 4; i++)
+		c.wave[i][0] = 0;
 	struct ratios e = ratios_of(&s, room);
 	struct glass g = glass_of(s.absorb, x, creal(m), cimag(m), e.beyond[0], n);
 	int with_p = !s.absorb && !s.near;
@@ -104,15 +104,15 @@ static void take_coefficients(const struct mie_lanes *lanes, const struct mie_ro
 int mie_coefficients(double x, double complex m, int n, double complex *a, double complex *b)
 {
 	a[0] = b[0] = 0;
-	return by_orders(x, m, n, 0, take_coefficients, &(struct coefficients){ a, b });
+	return by_orders(mie_lanes(), x, m, n, 0, take_coefficients, &(struct coefficients){ a, b });
 }
 
 static void take_sums(const struct mie_lanes *lanes, const struct mie_row *r, void *context) { lanes->sums(r, context); }
 
-int mie_alone(double x, double complex m, int n, struct efficiencies *q, double *error)
+int mie_alone(const struct mie_lanes *lanes, double x, double complex m, int n, struct efficiencies *q, double *error)
 {
 	struct mie_sums sums = { 0 };
-	int bad = by_orders(x, m, n, 1, take_sums, &sums);
+	int bad = by_orders(lanes, x, m, n, 1, take_sums, &sums);
 	*q = mie_of_sums(x, cimag(m) == 0, &sums);
 	*error = mie_error_of_sums(x, cimag(m) == 0, &sums);
 	return bad;
@@ -155,7 +155,8 @@ struct efficiencies mie_efficiencies(double x, int lossless, int n, const double
 	const struct mie_lanes *lanes = mie_lanes();
 	struct mie_sums sums = { 0 };
 	struct chunk c;
-	memset(&c, 0, sizeof c);
+	for (int i = 0; i < 4; i++)
+		c.wave[i][0] = 0;
 	for (int l = 1, count; l <= n; l += count) {
 		count = n + 1 - l < MIE_CHUNK ? n + 1 - l : MIE_CHUNK;
 		for (int i = 1; i <= count; i++) {

@@ -207,6 +207,20 @@ static void waves_of_one(const struct mie_row *r)
 		row_of(r, 0, 0);
 }
 
+/* One order after the other, as in a block. */
+INLINE struct mie_sums sum(int count, double (*t)[MIE_CHUNK + MIE_SPARE], const double *sca, struct mie_sums s)
+{
+	for (int i = 0; i < count; i++) {
+		s.ext += t[EXT][i];
+		s.asym += t[ASYM][i];
+		s.back_re = t[BACK_RE][i] - s.back_re;
+		s.back_im = t[BACK_IM][i] - s.back_im;
+		if (sca)
+			s.sca += sca[i];
+	}
+	return s;
+}
+
 static void sums_of_one(const struct mie_row *r, struct mie_sums *sums)
 {
 	double t[SUMS][MIE_CHUNK + MIE_SPARE];
@@ -221,16 +235,7 @@ static void sums_of_one(const struct mie_row *r, struct mie_sums *sums)
 		store(&t[BACK_RE][i], own[BACK_RE]);
 		store(&t[BACK_IM][i], own[BACK_IM]);
 	}
-	struct mie_sums s = *sums;
-	for (int i = 0; i < r->count; i++) {
-		s.ext += t[EXT][i];
-		s.asym += t[ASYM][i];
-		s.back_re = t[BACK_RE][i] - s.back_re;
-		s.back_im = t[BACK_IM][i] - s.back_im;
-	}
-	for (int i = 0; i < (r->absorbs ? r->count : 0); i++)
-		s.sca += r->sca[i];
-	*sums = s;
+	*sums = r->absorbs ? sum(r->count, t, r->sca, *sums) : sum(r->count, t, NULL, *sums);
 }
 
 /* ------------------------------------------------------------------ many angles */

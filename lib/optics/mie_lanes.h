@@ -29,9 +29,6 @@ struct mie_sums {
 struct efficiencies mie_of_sums(double x, int lossless, const struct mie_sums *s);
 double mie_error_of_sums(double x, int lossless, const struct mie_sums *s);
 
-/* A sphere of n terms by itself, its orders side by side: *q and *error as of mie_many, to the last bit; 0, or -1 when memory ran out. */
-int mie_alone(double x, double complex m, int n, struct efficiencies *q, double *error);
-
 struct mie_block {
 	int absorbs, near;         /* some Im m > 0, else m_im is not looked at; all |m - 1| < MIE_NEAR */
 	double x[MIE_BLOCK], m_re[MIE_BLOCK], m_im[MIE_BLOCK];
@@ -82,5 +79,9 @@ CPU_DECLARE(const struct mie_lanes, mie_lanes);
 
 /* mie_lanes - the build for this processor, by cpu_level. */
 const struct mie_lanes *mie_lanes(void);
+
+/* mie_alone - a sphere of n terms by itself, its orders side by side: *q and *error as of mie_many, to the last bit; 0, or -1 when memory ran
+ * out. */
+int mie_alone(const struct mie_lanes *lanes, double x, double complex m, int n, struct efficiencies *q, double *error);
 
 #endif

@@ -44,8 +44,10 @@ static int together(const struct mie_lanes *lanes, const struct item *item, int 
 
 int mie_many(int n, const double *x, const double complex *m, struct efficiencies *q, double *error)
 {
-	struct item *item = malloc(((size_t)n + 1) * sizeof *item);
 	const struct mie_lanes *lanes = mie_lanes();
+	if (n == 1)
+		return mie_alone(lanes, *x, *m, mie_terms(*x, *m), q, error);
+	struct item *item = malloc(((size_t)n + 1) * sizeof *item);
 	if (!item)
 		return -1;
 	int sorted = 1, bad = 0;
@@ -68,7 +70,7 @@ int mie_many(int n, const double *x, const double complex *m, struct efficiencie
 				first = last;
 			} else {
 				int at = item[first].at;
-				bad |= mie_alone(x[at], m[at], item[first].terms, &q[at], &error[at]);
+				bad |= mie_alone(lanes, x[at], m[at], item[first].terms, &q[at], &error[at]);
 				first++;
 			}
 		}

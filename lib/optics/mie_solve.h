@@ -21,6 +21,7 @@
 #ifndef OPTICS_MIE_SOLVE_H
 #define OPTICS_MIE_SOLVE_H
 
+#include "optics/lane_math.h"
 #include "optics/vec_sincos.h"
 
 #include <limits.h>
@@ -28,44 +29,58 @@
 #include <stddef.h>
 
 /* First order of the downward recurrence that leaves no trace at order n (rounding included) of its start with 0; even. With
- * l = |z| + t |z|^(1/3), psi_l/chi_l falls as e^(-1.89 t^(3/2)) beyond |z|; it must fall by 1e-17 from n on. Below |z|, where
+ * l = |z| + t |z|^(1/3), psi_l/chi_l falls as e^(-1.89 t^(3/2)) beyond |z|; it must fall by 1e-17 from n on, and a few orders do where |z| is small. Below |z|, where
  * |E_l|^2 = 1 - 2 l Im z / |z|^2 and less, an absorbing sphere forgets the start earlier: where the product of these is e^-45. */
 INLINE int ratios_start(int n, double re, double im)
 {
-	double z = sqrt(re * re + im * im), edge = cbrtf((float)z), t = (n - z) / edge;
-	double beyond = (n > z ? n : z) + 18 + (int)(edge * (t > 3 ? 14 / sqrt(t) : 8));
-	double forgotten = im > 0 ? sqrt((double)n * n + 45 * z * z / im) + 18 : INFINITY;
+	double z = sqrt(re * re + im * im), edge = lane_cbrt(z), t = (n - z) / edge;
+	double beyond = (n > z ? n : z) + 8 + (int)(edge * (t > 3 ? 14 / sqrt(t) : 8));
+	double forgotten = im > 0 ? sqrt((double)n * n + 45 * z * z / im) + 8 : INFINITY;
 	return (int)(forgotten < beyond ? forgotten : beyond) & ~1;
 }
 
-/* E_l(z), 1/z = inv, down from order `top` (even) to `low`, stored for low <= l <= n + 1: E_{l-1} = -1 / ((2l+1)/z + E_l), two orders to a
- * division. Before its own start, at orders above it, a lane's is 0; least: of these starts. */
-INLINE void ratios_real(int top, int least, int low, int n, const vec *inv, const vec *start, vec *e)
+/* What descends by ratios: E_l(z), 1/z = inv, from order `top` (even) to `low`, stored for l <= n + 1. Before its own start, at orders above it,
+ * a lane's is 0; least: of these starts. */
+struct fall {
+	int top, least, low, n;
+	const vec *inv, *start;
+	vec *e, v[UNROLL];
+};
+
+/* E_{l-1} = -1 / ((2l+1)/z + E_l), two orders to a division. Nothing where the descent is at its end. */
+INLINE void fall_two(struct fall *f)
 {
-	vec v[UNROLL];
-	EACH(u)
-		v[u] = each(0);
-	for (int l = top; l >= 2 && l > low; l -= 2) {
-		double k1 = 2.0 * l + 1, k2 = 2.0 * l - 1;
-		EACH(u) {
-			/* where psi_{l-1} or psi_{l-2} passes a zero, the next step brings it back */
-			vec t1 = not_zero(k1 * inv[u] + v[u]), t2 = not_zero(k2 * inv[u] * t1 - 1.0), r = 1.0 / (t1 * t2);
-			vec e1 = -(t2 * r), e2 = -(t1 * (t1 * r));
-			if (l > least) {
-				truths begun = (start[u] >= (double)l);
-				e1 = PICK(begun, e1, each(0));
-				e2 = PICK(begun, e2, each(0));
-			}
-			if (l - 1 <= n + 1)
-				e[(l - 1) * UNROLL + u] = e1;
-			if (l - 2 <= n + 1)
-				e[(l - 2) * UNROLL + u] = e2;
-			v[u] = e2;
+	int l = f->top, n = f->n;
+	if (l < 2 || l <= f->low)
+		return;
+	double k1 = 2.0 * l + 1, k2 = 2.0 * l - 1;
+	EACH(u) {
+		/* where psi_{l-1} or psi_{l-2} passes a zero, the next step brings it back */
+		vec t1 = not_zero(k1 * f->inv[u] + f->v[u]), t2 = not_zero(k2 * f->inv[u] * t1 - 1.0), r = 1.0 / (t1 * t2);
+		vec e1 = -(t2 * r), e2 = -((t1 * t1) * r);
+		if (l > f->least) {
+			truths begun = (f->start[u] >= (double)l);
+			e1 = PICK(begun, e1, each(0));
+			e2 = PICK(begun, e2, each(0));
 		}
+		if (l - 1 <= n + 1)
+			f->e[(l - 1) * UNROLL + u] = e1;
+		if (l - 2 <= n + 1)
+			f->e[(l - 2) * UNROLL + u] = e2;
+		f->v[u] = e2;
 	}
+	f->top = l - 2;
 }
 
-/* The same for complex z; |t|^2 is kept off zero alike. Into at_r, at_i besides, E at a lane's own order `at`, none above `most`; 0 where that
+INLINE void fall_to_end(struct fall *f)
+{
+	struct fall own = *f;
+	while (own.top >= 2 && own.top > own.low)
+		fall_two(&own);
+	f->top = own.top;
+}
+
+/* The same for complex z, all of it; |t|^2 is kept off zero alike. Into at_r, at_i besides, E at a lane's own order `at`, none above `most`; 0 where that
  * is above its start. */
 INLINE void ratios_complex(int top, int least, int low, int n, const vec *inv_r, const vec *inv_i, const vec *start, vec *er, vec *ei, int most,
                            const vec *at, vec *at_r, vec *at_i)
@@ -150,9 +165,10 @@ INLINE void descend_one(struct descent *d, int l, int least, int n, const vec *a
 	}
 }
 
-/* p down from order `most`, of `at`, to 1. Scaling by powers of 2 changes no digit. */
+/* p down from order `most`, of `at`, to 1. Scaling by powers of 2 changes no digit. One sphere's x falls meanwhile: neither waits for the
+ * other. */
 INLINE void descend(int most, int least, int n, const vec *inv_r, const vec *inv_i, const vec *at, const vec *at_r, const vec *at_i,
-                    vec *size, vec *re, vec *im)
+                    vec *size, vec *re, vec *im, struct fall *x)
 {
 	struct descent d;
 	EACH(u)
@@ -169,7 +185,7 @@ INLINE void descend(int most, int least, int n, const vec *inv_r, const vec *inv
 		}
 		descend_one(&d, l - 1, least, n, at, at_r, at_i, size, re, im);
 		EACH(u) {
-			if (l % 8 == 0) {      /* |p| grows by no more than 3 an order */
+			if (l % 8 == 0) {      /* |p| grows by no more than 9 an order, and 3 where it is stored */
 				vec f = to_one(size_of(d.vr[u]) + size_of(d.vi[u]));
 				d.vr[u] *= f;
 				d.vi[u] *= f;
@@ -179,6 +195,8 @@ INLINE void descend(int most, int least, int n, const vec *inv_r, const vec *inv
 				d.im[u] = d.im[u] * f * f;
 			}
 		}
+		if (WIDTH == 1 && l % 4 == 0)
+			fall_two(x);
 	}
 }
 
@@ -252,7 +270,7 @@ INLINE struct ratios ratios_of(const struct spheres *s, vec *room)
 		low_x = start < low_x ? start : low_x;
 		e.from_x = x < e.from_x ? (int)ceil(x) : e.from_x;
 		if (s->absorb || s->near || beyond <= own) {
-			int begin = ratios_start(own, re, im), first = beyond - 1 < begin ? beyond - 1 : begin;
+			int begin = ratios_start(own, re, im), first = own < beyond || begin < beyond ? begin : beyond - 1;
 			LANE(start_y, i) = begin;
 			low_y = begin < low_y ? begin : low_y;
 			LANE(at, i) = first;
@@ -289,13 +307,19 @@ INLINE struct ratios ratios_of(const struct spheres *s, vec *room)
 		ratios_near(top_x > top_y ? top_x : top_y, low_x > low_y ? low_x : low_y, n, s->absorb, inv_x, inv_re, inv_im, start_y, e.x, e.y_re, e.y_im);
 		return e;
 	}
-	ratios_real(top_x, low_x, e.from_x - 1, n, inv_x, start_x, e.x);
+	struct fall x = { .top = top_x, .least = low_x, .low = e.from_x - 1, .n = n, .inv = inv_x, .start = start_x, .e = e.x };
+	struct fall y = { .top = top_y, .least = low_y, .low = e.from_y - 1, .n = n, .inv = inv_re, .start = start_y, .e = e.y_re };
+	EACH(u)
+		x.v[u] = y.v[u] = each(0);
 	if (s->absorb) {
 		ratios_complex(top_y, low_y, at_least, n, inv_re, inv_im, start_y, e.y_re, e.y_im, at_most, at, at_re, at_im);
-		descend(at_most, at_least, n, inv_re, inv_im, at, at_re, at_im, e.size, e.re, e.im);
+		descend(at_most, at_least, n, inv_re, inv_im, at, at_re, at_im, e.size, e.re, e.im, &x);
 	} else {
-		ratios_real(top_y, low_y, e.from_y - 1, n, inv_re, start_y, e.y_re);
+		for (; WIDTH == 1 && y.top > y.low && x.top > x.low; fall_two(&y))
+			fall_two(&x);
+		fall_to_end(&y);
 	}
+	fall_to_end(&x);
 	return e;
 }
 
