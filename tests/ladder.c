@@ -90,12 +90,10 @@ static int table(int n)
 	for (int k = METHOD_RAYLEIGH; k <= METHOD_EVANS_FOURNIER; k++) {
 		struct shares s = honest(k, 0, k == METHOD_GOA ? n / 20 : n, 1, 1e5);
 		printf("%s\t-\t%d\t%.2g\t%.2g\n", names[k], s.n, (double)s.worse / s.n, s.most);
-		fprintf(stderr, "%g %g %g\n", s.beyond, creal(s.m), cimag(s.m));
 	}
 	for (int k = 1; k <= 6; k++) {
 		struct shares s = honest(METHOD_AUTO, pow(10, -k), n, SIZES, 1e5);
 		printf("auto\t1e-%d\t%d\t%.2g\t%.2g\n", k, s.n, (double)s.worse / s.n, s.most);
-		fprintf(stderr, "%g %g %g\n", s.beyond, creal(s.m), cimag(s.m));
 	}
 	return 0;
 }
