@@ -163,7 +163,7 @@ int main(int argc, char **argv)
 		warn("goa", "%s: geometrical optics does not hold there (estimated error %.2g, worst of this run)", at, w.error);
 	if (w.dark.x_im > 0) {
 		char dark[SIZE_NAME];
-		warn("host", "%s: extinction, %.4g there, means little in a host that absorbs so much (beta = %.3g, worst of this run)",
+		warn("host", "%s: far-field extinction means little there: %.4g at beta = %.3g (worst of this run)",
 		     size_name(&w.dark, dark), w.dark_ext, 2 * w.dark.x_im);
 	}
 	if (verbose)
