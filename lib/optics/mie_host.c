@@ -58,7 +58,7 @@ static void ratios(double complex x, double complex m, int n, int near, double c
 	}
 }
 
-/* a = A / (A - iC). Re a = [|A|^2 + Im(A* C)] / |A - iC|^2, where C may be far greater: its own small terms must not go through those of Im a. */
+/* a = A / (A - iC), C far greater than A where the wave is weak: Re a = [|A|^2 + Im(A* C)] / |A - iC|^2 without Im a's terms in it. */
 static double complex shallow_wave(double complex A, double complex C)
 {
 	double r = norm2(A - turned(C)), ar = creal(A), ai = cimag(A), cr = creal(C), ci = cimag(C);
