@@ -10,8 +10,8 @@
 
 #define MIE_HOST_BETA_MAX 300    /* |a_n| reaches e^beta, and its square must be a double */
 
-/* mie_host_gamma - gamma(beta) e^(-beta) = 2 (beta - 1 + e^(-beta)) / beta^2, from 1 at beta = 0 down to 2/beta; beta >= 0. gamma is the mean
- * intensity of the incident wave on the sphere's front, over its cross section; that at the centre is 1.
+/* mie_host_gamma - gamma(beta) e^(-beta) = 2 (beta - 1 + e^(-beta)) / beta^2, from 1 at beta = 0 down to 2/beta; beta >= 0.
+ * gamma is the mean intensity of the incident wave on the sphere's front, over its cross section; that at the centre is 1.
  * Source: Guo et al. 2022, gamma of eq 29, which must be 2 (1 + (beta - 1) e^beta) / beta^2 to have the limit 1 */
 double mie_host_gamma(double beta);
 
