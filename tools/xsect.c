@@ -10,6 +10,7 @@
 
 #define GOA_ORDER 3    /* rays of the phase function, as published */
 #define GOA_FAILS 1    /* estimated error from which on the model does not hold (goa.h) */
+#define DARK 1         /* beta above which light is lost within a radius: extinction seen from afar grows as e^beta (mie_host.h) */
 
 enum { MIE, GOA };
 static const char *const names[] = { "mie", "goa" };
@@ -20,10 +21,10 @@ struct answer {
 	double error;
 };
 
-/* The estimate that is worst in this run. */
+/* What is worst in this run: the estimate, and a host that absorbs too much for an extinction seen from afar. */
 struct worst {
-	struct size size;
-	double error;
+	struct size size, dark;
+	double error, dark_ext;
 };
 
 /* The published extinction formula has the ray of one chord only, the phase function has three. */
@@ -36,25 +37,37 @@ static void by_goa(const struct size *size, struct answer *a)
 	a->q.back = rays.back;
 }
 
-/* n sizes; those whose coefficients were read have them. */
+/* n sizes; those whose coefficients were read have them. The others are solved at once, but in a host that absorbs. */
 static void by_mie(int n, struct waves *w, struct answer *a)
 {
 	static double x[COEFFS_BATCH], error[COEFFS_BATCH];
 	static double complex m[COEFFS_BATCH];
 	static struct efficiencies q[COEFFS_BATCH];
-	if (n && w[0].a) {
-		for (int i = 0; i < n; i++)
-			a[i].q = mie_efficiencies(w[i].size.x, w[i].lossless, w[i].n, w[i].a, w[i].b, &a[i].error);
-		return;
-	}
+	static int of[COEFFS_BATCH];
+	int many = 0, failed = 0;
 	for (int i = 0; i < n; i++) {
-		x[i] = w[i].size.x;
-		m[i] = w[i].size.m;
+		if (w[i].a || w[i].size.x_im > 0)
+			continue;
+		x[many] = w[i].size.x;
+		m[many] = w[i].size.m;
+		of[many++] = i;
 	}
-	if (mie_many(n, x, m, q, error))
+	if (many && mie_many(many, x, m, q, error))
 		die(NULL, "out of memory");
-	for (int i = 0; i < n; i++)
-		a[i] = (struct answer){ q[i], error[i] };
+	for (int k = 0; k < many; k++)
+		a[of[k]] = (struct answer){ q[k], error[k] };
+#pragma omp parallel for schedule(dynamic) reduction(|:failed) if (n - many > 1)
+	for (int i = 0; i < (many < n ? n : 0); i++) {    /* the rest, one by one */
+		if (!w[i].a && w[i].size.x_im == 0)
+			continue;
+		if (waves_solve(&w[i]))
+			failed = 1;
+		else
+			a[i].q = waves_efficiencies(&w[i], &a[i].error);
+		waves_drop(&w[i]);
+	}
+	if (failed)
+		die(NULL, "out of memory");
 }
 
 static int columns(int by_x, struct tab_col *cols)
@@ -89,7 +102,7 @@ static struct worst run(struct coeffs *in, int method, const char *output, const
 {
 	static struct waves w[COEFFS_BATCH];
 	static struct answer a[COEFFS_BATCH];
-	struct worst worst = { .error = -1 };
+	struct worst worst = { .error = -1, .dark = { .x_im = 0 } };
 	struct tab_col cols[TAB_COLS];
 	double row[TAB_COLS];
 	int by_x = coeffs_by_x(in), k = coeffs_columns(in, cols);
@@ -103,12 +116,18 @@ static struct worst run(struct coeffs *in, int method, const char *output, const
 		for (int i = 0; i < (method == GOA ? n : 0); i++)
 			by_goa(&w[i].size, &a[i]);
 		for (int i = 0; i < n; i++) {
-			int j = coeffs_key(in, &w[i].size, row);
+			int key = coeffs_key(in, &w[i].size, row), j = key;
 			j += values(by_x, method, &w[i].size, &a[i], row + j);
 			memcpy(row + j, w[i].size.carried, (size_t)ncarried * sizeof *row);
 			tab_put(out, row);
-			if (!(a[i].error <= worst.error))
-				worst = (struct worst){ w[i].size, a[i].error };
+			if (!(a[i].error <= worst.error)) {
+				worst.size = w[i].size;
+				worst.error = a[i].error;
+			}
+			if (w[i].size.x_im > worst.dark.x_im && (2 * w[i].size.x_im > DARK || !(a[i].q.ext > 0))) {
+				worst.dark = w[i].size;
+				worst.dark_ext = row[key];
+			}
 			waves_free(&w[i]);
 		}
 	}
@@ -133,17 +152,20 @@ int main(int argc, char **argv)
 	struct opt_line args = opt_parse(&tool, argc, argv);
 	if (args.n > 1)
 		die(args.operand[1], "one table at most");
+	sizes.clear_host = method == GOA;
 	struct coeffs *in = coeffs_open(&sizes, args.n ? args.operand[0] : NULL);
 	if (coeffs_read(in) && method != MIE)
 		die("--method", "%s has no use for the coefficients in %s", names[method], coeffs_read(in));
 	struct worst w = run(in, method, output, args.history);
-	char at[96];
-	if (coeffs_by_x(in))
-		snprintf(at, sizeof at, "x = %.9g", w.size.x);
-	else
-		snprintf(at, sizeof at, "radius %.9g um, wavelength %.9g um", w.size.radius, w.size.wavelength);
+	char at[SIZE_NAME];
+	size_name(&w.size, at);
 	if (method == GOA && !(w.error < GOA_FAILS))
 		warn("goa", "%s: geometrical optics does not hold there (estimated error %.2g, worst of this run)", at, w.error);
+	if (w.dark.x_im > 0) {
+		char dark[SIZE_NAME];
+		warn("host", "%s: far-field extinction means little there: %.4g at beta = %.3g (worst of this run)",
+		     size_name(&w.dark, dark), w.dark_ext, 2 * w.dark.x_im);
+	}
 	if (verbose)
 		warn("verbose", "method %s; estimated error at most %.2g, at %s", names[method], w.error, at);
 	coeffs_close(in);
