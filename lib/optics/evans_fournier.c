@@ -18,7 +18,7 @@ double evans_fournier_error(double x, double complex m)
 	double n = creal(m), k = cimag(m), d = fabs(n - 1), edge = n < 1 ? 4 : 1.5 * (fmin(1, 0.1 + 5 * d) + fmax(0, 1.5 * (n - 1.6)));
 	if (x < 10)
 		return fmin(1, (n < 1 ? 3 : 1.5) * x);
-	return fmin(1, edge * pow(x, -2.0 / 3) + 0.015 + 0.02 * d + (k == 0 ? 0 : n < 1 ? 0.3 : k > d ? 0.16 : 0.06));
+	return fmin(1, edge * pow(x, -2.0 / 3) + 0.015 + (n < 1 ? 0.05 : 0.02) * d + (k == 0 ? 0 : n < 1 ? 0.3 : k > d ? 0.16 : 0.06));
 }
 
 struct efficiencies evans_fournier_efficiencies(double x, double complex m)

@@ -20,12 +20,20 @@ failed=0
 # ---- what it saves
 
 least() { sort -g | head -n 1; }
+# seconds COMMAND..: of CPU time; what is over too soon for the clock is done ten times
+seconds() {
+	s=$(cpu "$@")
+	if awk -v s="$s" 'BEGIN { exit !(s < 0.3) }'; then
+		s=$(cpu sh -c 'for i in 1 2 3 4 5 6 7 8 9 10; do "$@" || exit; done' sh "$@" | awk '{ print ($1 > 0 ? $1 : 0.01) / 10 }')
+	fi
+	echo "$s"
+}
 printf '# m\ttolerance\tus a size, auto\tus a size, mie\tspeed-up\trayleigh\tcam\tevans-fournier\tmie\n' >xsect.tsv
 for m in 1.33 1.49 1.5+0.1i 0.75; do
 	for r in $runs; do
-		cpu xsect --particle $m --size-parameter 0.01:1e5:$sizes --method mie >>"mie.$m"
+		seconds xsect --particle $m --size-parameter 0.01:1e5:$sizes --method mie >>"mie.$m"
 		for t in $tolerances; do
-			cpu xsect --particle $m --size-parameter 0.01:1e5:$sizes --tolerance "$t" >>"auto.$m.$t"
+			seconds xsect --particle $m --size-parameter 0.01:1e5:$sizes --tolerance "$t" >>"auto.$m.$t"
 		done
 	done
 	for t in $tolerances; do
@@ -40,9 +48,9 @@ for m in 1.33 1.49 1.5+0.1i 0.75; do
 done | tee -a xsect.tsv
 awk -F'\t' '
 	NR > 1 {
-		chosen = $9 < 0.9     # else nearly all is Lorenz-Mie theory, and both take the same time
-		ok = $5 >= (chosen ? 1 : 0.95)
-		printf("%s m = %s, tolerance %s: %s times as fast as mie, required %s\n", ok ? "PASS" : "FAIL", $1, $2, $5, chosen ? 1 : 0.95)
+		limit = $7 + $8 > 0 ? 1 : 0.9     # where only the smallest spheres are spared, both take the same time
+		ok = $5 >= limit
+		printf("%s m = %s, tolerance %s: %s times as fast as mie, required %s\n", ok ? "PASS" : "FAIL", $1, $2, $5, limit)
 		bad += !ok
 	}
 	END { exit bad > 0 }' xsect.tsv || failed=1
