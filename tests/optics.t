@@ -28,7 +28,9 @@ golden xsect.txt out
 xsect --method mie --particle 1.5+0.1i --size-parameter 0.01,1,100 | tabtxt | digits >out
 golden xsect-x.txt out
 for m in 1.33 0.75 1.5+0.1i; do
-	for method in rayleigh evans-fournier cam; do xsect --method $method --particle $m --size-parameter 0.1,1000 2>err | tabtxt | sed 1d; done
+	for method in rayleigh evans-fournier cam; do
+		xsect --method $method --particle $m --size-parameter 0.1,1000 2>err | tabtxt | sed 1d
+	done
 done | digits >out
 golden xsect-methods.txt out
 mie-phase --particle 1.33+1e-5i --host 1.1 --wavelength 550nm --radius 0.2um --theta 0:180:45 | tabtxt | digits >out
@@ -108,13 +110,15 @@ is "0 0" "$? $(wc -l <err)" 'goa: no warning for a large sphere'
 
 # The cheapest method within the tolerance, and what says so.
 xsect --particle 1.5+0.1i --tolerance 1e-3 --size-parameter 0.01:3e4:1000 --verbose 2>err >auto.tab
-is 'cam mie rayleigh' "$(sed -n 's/^xsect: verbose: method \([a-z]*\) for [0-9]* sizes; estimated error at most .*/\1/p' err | sort | tr '\n' ' ' | sed 's/ $//')" \
+sed -n 's/^xsect: verbose: method \([a-z]*\) for [0-9]* sizes; estimated error at most .*/\1/p' err | sort >out
+is 'cam mie rayleigh' "$(tr '\n' ' ' <out | sed 's/ $//')" \
 	'--verbose says each method and its worst estimate'
 is '1 2 4' "$(tabtxt --columns method auto.tab | sed 1d | sort -u | tr '\n' ' ' | sed 's/ $//')" 'auto: Rayleigh, Lorenz-Mie, asymptotics'
 ok "$(tabtxt --columns error auto.tab | awk 'NR > 1 && $1 >= 1e-3 { bad = 1 } END { print bad + 0 }')" 'auto: every estimate is below the tolerance'
 xsect --method mie --particle 1.5+0.1i --size-parameter 0.01:3e4:1000 >mie.tab
 tabtxt --columns q_ext,q_sca,g auto.tab >a
-tabtxt --columns q_ext,q_sca,g mie.tab | paste a - | awk 'NR > 1 { for (i = 1; i <= 3; i++) { e = $i - $(i + 3); if (i < 3) e /= $(i + 3); if (e * e > 1e-6) bad = 1 } }
+tabtxt --columns q_ext,q_sca,g mie.tab | paste a - | awk '
+	NR > 1 { for (i = 1; i <= 3; i++) { e = $i - $(i + 3); if (i < 3) e /= $(i + 3); if (e * e > 1e-6) bad = 1 } }
 	END { exit bad + 0 }'
 ok $? 'auto: and the truth is, too'
 xsect --particle 1.5+0.1i --tolerance 1e-3 --size-parameter 0.01:3e4:1000 --threads 3 | cksum >three

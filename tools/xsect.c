@@ -146,7 +146,8 @@ int main(int argc, char **argv)
 	const char *output = NULL;
 	const struct opt opts[] = {
 		SIZES_OPTIONS(sizes),
-		{ "--method", OPT_CHOICE, &method, 0, 0, "auto|mie|rayleigh|goa|cam|evans-fournier", "how: the cheapest within --tolerance, Lorenz-Mie theory, ..", 0 },
+		{ "--method", OPT_CHOICE, &method, 0, 0, "auto|mie|rayleigh|goa|cam|evans-fournier",
+		  "the cheapest within --tolerance, Lorenz-Mie theory, or an approximation", 0 },
 		{ "--tolerance", OPT_REAL, &tolerance, 1e-14, 1, "T", "largest error that auto may choose a cheaper method for", 0 },
 		{ "--verbose", OPT_FLAG, &verbose, 0, 0, NULL, "say which methods were used and their estimated errors", 1 },
 		OPT_OUTPUT(&output),

@@ -87,7 +87,7 @@ static void mean(const struct cam *c, double x, double *abs, double *pr)
 	}
 }
 
-/* Diffraction, the edge, and the ray through the centre with its orders p = 1, 3, ..; the root of Im >= 0, which holds for n < 1 as well. */
+/* Diffraction, the edge, and the ray through the centre with its orders p = 1, 3, ..; with the root of Im >= 0 for n < 1 as well. */
 static double extinction(const struct cam *c, double x)
 {
 	static const double c1 = 1.2551245556, c2 = 0.5322906033, c3 = 0.0677180533;

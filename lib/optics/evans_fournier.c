@@ -23,11 +23,13 @@ double evans_fournier_error(double x, double complex m)
 
 struct efficiencies evans_fournier_efficiencies(double x, double complex m)
 {
-	double n = creal(m), k = cimag(m), d = fabs(n - 1), n2 = n * n, k2 = k * k, size2 = (n2 + k2) * (n2 + k2), diff = n2 - k2, root = sqrt(k);
+	double n = creal(m), k = cimag(m), d = fabs(n - 1), n2 = n * n, k2 = k * k;
+	double size2 = (n2 + k2) * (n2 + k2), diff = n2 - k2, root = sqrt(k);
 	double x2 = x * x, w = size2 + 4 * diff + 4;      /* |m^2 + 2|^2 */
 	double dipole = 8.0 / 3 * x2 * x2 * (size2 - 2 * diff + 1) / w;
 	double absorbed = 24 * n * k / w * x;
-	double small = absorbed + n * k * (4.0 / 15 + 20 / (3 * (4 * size2 + 12 * diff + 9)) + 4.8 * (7 * size2 + 4 * (diff - 5)) / (w * w)) * x * x2 +
+	double more = 4.0 / 15 + 20 / (3 * (4 * size2 + 12 * diff + 9)) + 4.8 * (7 * size2 + 4 * (diff - 5)) / (w * w);
+	double small = absorbed + n * k * more * x * x2 +
 		       dipole * ((size2 + diff - 2) * (size2 + diff - 2) - 36 * n2 * k2) / ((size2 - 2 * diff + 1) * w);
 	if (!(small > dipole))
 		small = dipole + absorbed;

@@ -217,7 +217,8 @@ static int by_mie(int n, const double *x, const double complex *m, struct effici
 	return failed;
 }
 
-int ladder_many(struct ladder *l, int n, const double *x, const double complex *m, struct efficiencies *q, double *error, enum method *used)
+int ladder_many(struct ladder *l, int n, const double *x, const double complex *m, struct efficiencies *q, double *error,
+                enum method *used)
 {
 	for (int i = 0; i < n; i++)
 		used[i] = l->method;

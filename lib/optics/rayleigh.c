@@ -22,7 +22,8 @@ static double complex times(double complex a, double complex b)
 double rayleigh_error(double x, double complex m)
 {
 	double w = sqrt(norm2(m - 1) * norm2(m + 1)), w3 = w * w * w, x2 = x * x, x4 = x2 * x2;
-	double scattering = (0.0015 + 0.015 * w + 2e-4 * w3) * x4 * x2, absorption = cimag(m) > 0 ? (0.018 + 0.022 * w + 3e-4 * w3) * x4 : 0;
+	double scattering = (0.0015 + 0.015 * w + 2e-4 * w3) * x4 * x2;
+	double absorption = cimag(m) > 0 ? (0.018 + 0.022 * w + 3e-4 * w3) * x4 : 0;
 	double error = (scattering + absorption) * (1 + x2 * (0.2 + 0.15 * w)) + 4 * DBL_EPSILON;
 	return x > LARGEST ? fmax(error, 1) : error;
 }

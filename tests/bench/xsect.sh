@@ -30,7 +30,7 @@ seconds() {
 }
 printf '# m\ttolerance\tus a size, auto\tus a size, mie\tspeed-up\trayleigh\tcam\tevans-fournier\tmie\n' >xsect.tsv
 for m in 1.33 1.49 1.5+0.1i 0.75; do
-	for r in $runs; do
+	for _ in $runs; do
 		seconds xsect --particle $m --size-parameter 0.01:1e5:$sizes --method mie >>"mie.$m"
 		for t in $tolerances; do
 			seconds xsect --particle $m --size-parameter 0.01:1e5:$sizes --tolerance "$t" >>"auto.$m.$t"
@@ -61,7 +61,8 @@ awk -F'\t' '
 awk -F'\t' '
 	NR > 1 {
 		ok = $4 < 0.01 && $5 < 10
-		printf("%s %s%s: %s of %d spheres worse than promised, at most %s times, required less than 0.01, 10\n", ok ? "PASS" : "FAIL", $1, \
+		printf("%s %s%s: %s of %d spheres worse than promised, at most %s times, required less than 0.01, 10\n", \
+			ok ? "PASS" : "FAIL", $1, \
 			$2 == "-" ? "" : ", tolerance " $2, $4, $3, $5)
 		bad += !ok
 	}
