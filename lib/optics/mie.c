@@ -31,8 +31,12 @@ int mie_terms(double x, double complex m)
 /* A chunk of orders: arrays from the one before its first. */
 struct chunk {
 	double psi[1 + MIE_CHUNK + MIE_SPARE], chi[1 + MIE_CHUNK + MIE_SPARE], p[1 + MIE_CHUNK + MIE_SPARE];
+	double size[MIE_CHUNK + MIE_SPARE], re[MIE_CHUNK + MIE_SPARE], im[MIE_CHUNK + MIE_SPARE];
 	double wave[4][1 + MIE_CHUNK + MIE_SPARE], sca[MIE_CHUNK + MIE_SPARE];
 };
+
+/* From so many terms on, what descends is computed twice, the second time chunk by chunk, instead of being kept in more memory than caches hold. */
+#define TWICE 16384
 
 /* Climb over orders l .. l + count - 1. */
 INLINE void climb_chunk(struct climb *k, const struct glass *g, const struct ratios *e, int with_p, int l, int count, int from_x,
@@ -52,18 +56,33 @@ INLINE void climb_chunk(struct climb *k, const struct glass *g, const struct rat
 	*k = own;
 }
 
+/* p of the chunk from order l on, again; to n. */
+static struct trail descend_chunk(const struct descent *marks, const struct course *course, int l, int n, struct chunk *c)
+{
+	struct trail t = { c->size, c->re, c->im, l, n };
+	int top = (course->most + 1) & ~1, end = l - 1 + MIE_CHUNK;
+	struct descent d = end < top ? marks[end / MIE_CHUNK] : descent_start();
+	descend(&d, course, end < top ? end : top, l - 1, &t, NULL);
+	return t;
+}
+
 /* The orders of one sphere, chunk after chunk to take: recurrences one order after the other, and from these the coefficients side by side. */
 static int by_orders(const struct mie_lanes *lanes, double x, double complex m, int n, int weighted,
                      void (*take)(const struct mie_lanes *, const struct mie_row *, void *), void *context)
 {
 	struct spheres s = { { x }, { creal(m) }, { cimag(m) }, { n }, n, cimag(m) > 0, mie_near(m) };
-	double *room = malloc((RATIOS * ((size_t)n + 2) + MIE_SPARE) * sizeof *room);
+	int twice = s.absorb && !s.near && n >= TWICE;
+	double *room = malloc(((twice ? 3 : RATIOS) * ((size_t)n + 2) + MIE_SPARE) * sizeof *room);
+	struct descent *marks = twice ? malloc(((size_t)n / MIE_CHUNK + 2) * sizeof *marks) : NULL;
 	struct chunk c;
-	if (!room)
+	if (!room || (twice && !marks)) {
+		free(room);
+		free(marks);
 		return -1;
+	}
 	for (int i = 0; i < 4; i++)
 		c.wave[i][0] = 0;
-	struct ratios e = ratios_of(&s, room);
+	struct ratios e = ratios_of(&s, room, marks);
 	struct glass g = glass_of(s.absorb, x, creal(m), cimag(m), e.beyond[0], n);
 	int with_p = !s.absorb && !s.near;
 	struct climb k = climb_start(&g, with_p);
@@ -75,8 +94,11 @@ static int by_orders(const struct mie_lanes *lanes, double x, double complex m, 
 			climb_chunk(&k, &g, &e, 1, l, count, 0, &c);
 		else
 			climb_chunk(&k, &g, &e, 0, l, count, 0, &c);
+		if (twice)
+			e.p = descend_chunk(marks, &e.course, l, n, &c);
+		int at = l - e.p.base;
 		struct mie_row row = { s.absorb, s.near, l, count, weighted, x, creal(m), cimag(m), e.beyond[0], c.psi, c.chi, c.p,
-			e.x + l, e.y_re + l, e.y_im + l, e.size + l, e.re + l, e.im + l,
+			e.x + l, e.y_re + l, e.y_im + l, e.p.size + at, e.p.re + at, e.p.im + at,
 			c.wave[0] + 1, c.wave[1] + 1, c.wave[2] + 1, c.wave[3] + 1, c.sca };
 		lanes->waves(&row);
 		take(lanes, &row, context);
@@ -84,6 +106,7 @@ static int by_orders(const struct mie_lanes *lanes, double x, double complex m, 
 			c.wave[i][0] = c.wave[i][count];
 	}
 	free(room);
+	free(marks);
 	return 0;
 }
 

@@ -59,9 +59,9 @@ INLINE void orders(struct many *many, const struct ratios *e, int u, const doubl
 		if (absorb && (near || from_y))
 			f.ei = e->y_im[i];
 		if (absorb && !near) {
-			f.size = e->size[i];
-			f.re = e->re[i];
-			f.im = e->im[i];
+			f.size = e->p.size[i];
+			f.re = e->p.re[i];
+			f.im = e->p.im[i];
 		}
 		climb_to(&m.k, &m.g, with_p, w[L][l], w[W][l - 1], from_x, from_x ? e->x[i - UNROLL] : each(0));
 		waves_of(absorb, near, from_x, from_y, &m.g, weight[L], weight[W], &m.k, &f, a, b, &t[SCA]);
@@ -90,7 +90,7 @@ INLINE void spheres(struct mie_block *b, int first, const double *const w[WEIGHT
 		LANE(s.terms, i) = b->terms[first + i];
 		s.most = b->terms[first + i] > s.most ? b->terms[first + i] : s.most;
 	}
-	struct ratios e = ratios_of(&s, (vec *)b->room);
+	struct ratios e = ratios_of(&s, (vec *)b->room, NULL);
 	for (int u = 0; u < UNROLL; u++) {
 		struct many m = { .g = glass_of(absorb, s.x[u], s.m_re[u], s.m_im[u], e.beyond[u], s.terms[u]) };
 		m.k = climb_start(&m.g, !absorb && !near);

@@ -130,33 +130,44 @@ INLINE vec to_one(vec a)
 	return of_bits(twice - (bits_of(a) & exponent));
 }
 
-/* p_l ~ psi_l(z), p_{l+1}, (2l+1)/z, and re and im of p_l p_{l+1}*. */
+/* Where p_l ~ psi_l(z) descends: 1/z; and the order at which a lane begins, with p = 1 and E given; most, least of these. */
+struct course {
+	vec inv_r[UNROLL], inv_i[UNROLL], at[UNROLL], at_r[UNROLL], at_i[UNROLL];
+	int most, least;
+};
+
+/* Where it is: p_l, p_{l+1}, (2l+1)/z, and re and im of p_l p_{l+1}*. */
 struct descent {
 	vec vr[UNROLL], vi[UNROLL], tr[UNROLL], ti[UNROLL], kr[UNROLL], ki[UNROLL], re[UNROLL], im[UNROLL];
 };
 
-/* To p_{l-1}, (2l+1)/z being known. Lanes begin at their own order `at`, with p = 1 and E = at_r + i at_i; least: of `at`. Stored to l = n:
- * |p_l|^2, and re and im of p_{l-1} p_l*. */
-INLINE void descend_one(struct descent *d, int l, int least, int n, const vec *at, const vec *at_r, const vec *at_i, vec *size, vec *re, vec *im)
+/* What is kept of it, order l at [(l - base) UNROLL], of orders to n: |p_l|^2, and re and im of p_{l-1} p_l*. */
+struct trail {
+	vec *size, *re, *im;
+	int base, n;
+};
+
+INLINE void descend_one(struct descent *d, const struct course *c, int l, const struct trail *t)
 {
 	EACH(u) {
-		if (l >= least) {
-			truths here = (at[u] == (double)l);
+		if (l >= c->least) {
+			truths here = (c->at[u] == (double)l);
 			d->vr[u] = PICK(here, each(1), d->vr[u]);
 			d->vi[u] = PICK(here, each(0), d->vi[u]);
-			d->tr[u] = PICK(here, -at_r[u], d->tr[u]);
-			d->ti[u] = PICK(here, -at_i[u], d->ti[u]);
-			d->re[u] = PICK(here, -at_r[u], d->re[u]);
-			d->im[u] = PICK(here, at_i[u], d->im[u]);
+			d->tr[u] = PICK(here, -c->at_r[u], d->tr[u]);
+			d->ti[u] = PICK(here, -c->at_i[u], d->ti[u]);
+			d->re[u] = PICK(here, -c->at_r[u], d->re[u]);
+			d->im[u] = PICK(here, c->at_i[u], d->im[u]);
 		}
 		vec kr = d->kr[u], ki = d->ki[u], vr = d->vr[u], vi = d->vi[u], v2 = vr * vr + vi * vi;
 		vec ur = (kr * vr - d->tr[u]) - ki * vi, ui = (kr * vi - d->ti[u]) + ki * vr;
 		d->re[u] = kr * v2 - d->re[u];
 		d->im[u] += ki * v2;
-		if (l <= n) {
-			size[l * UNROLL + u] = v2;
-			re[l * UNROLL + u] = d->re[u];
-			im[l * UNROLL + u] = d->im[u];
+		if (l <= t->n) {
+			int i = (l - t->base) * UNROLL + u;
+			t->size[i] = v2;
+			t->re[i] = d->re[u];
+			t->im[i] = d->im[u];
 		}
 		d->tr[u] = vr;
 		d->ti[u] = vi;
@@ -165,27 +176,31 @@ INLINE void descend_one(struct descent *d, int l, int least, int n, const vec *a
 	}
 }
 
-/* p down from order `most`, of `at`, to 1. Scaling by powers of 2 changes no digit. One sphere's x falls meanwhile: neither waits for the
- * other. */
-INLINE void descend(int most, int least, int n, const vec *inv_r, const vec *inv_i, const vec *at, const vec *at_r, const vec *at_i,
-                    vec *size, vec *re, vec *im, struct fall *x)
+INLINE struct descent descent_start(void)
 {
 	struct descent d;
 	EACH(u)
 		d.vr[u] = d.vi[u] = d.tr[u] = d.ti[u] = d.re[u] = d.im[u] = each(0);
-	for (int l = (most + 1) & ~1; l >= 2; l -= 2) {
+	return d;
+}
+
+/* From order `top` to low + 1, both even. Scaling by powers of 2 changes no digit. One sphere's x falls meanwhile: neither waits for the other. */
+INLINE void descend(struct descent *state, const struct course *c, int top, int low, const struct trail *t, struct fall *x)
+{
+	struct descent d = *state;
+	for (int l = top; l > low; l -= 2) {
 		EACH(u) {
-			d.kr[u] = (2.0 * l + 1) * inv_r[u];
-			d.ki[u] = (2.0 * l + 1) * inv_i[u];
+			d.kr[u] = (2.0 * l + 1) * c->inv_r[u];
+			d.ki[u] = (2.0 * l + 1) * c->inv_i[u];
 		}
-		descend_one(&d, l, least, n, at, at_r, at_i, size, re, im);
+		descend_one(&d, c, l, t);
 		EACH(u) {
-			d.kr[u] = d.kr[u] - 2.0 * inv_r[u];
-			d.ki[u] = d.ki[u] - 2.0 * inv_i[u];
+			d.kr[u] = d.kr[u] - 2.0 * c->inv_r[u];
+			d.ki[u] = d.ki[u] - 2.0 * c->inv_i[u];
 		}
-		descend_one(&d, l - 1, least, n, at, at_r, at_i, size, re, im);
+		descend_one(&d, c, l - 1, t);
 		EACH(u) {
-			if (l % 8 == 0) {      /* |p| grows by no more than 9 an order, and 3 where it is stored */
+			if (l % 8 == 0) {      /* |p| grows by no more than 9 an order, and 3 where it is kept */
 				vec f = to_one(size_of(d.vr[u]) + size_of(d.vi[u]));
 				d.vr[u] *= f;
 				d.vi[u] *= f;
@@ -195,9 +210,10 @@ INLINE void descend(int most, int least, int n, const vec *inv_r, const vec *inv
 				d.im[u] = d.im[u] * f * f;
 			}
 		}
-		if (WIDTH == 1 && l % 4 == 0)
+		if (WIDTH == 1 && x && l % 4 == 0)
 			fall_two(x);
 	}
+	*state = d;
 }
 
 /* E_l(x), and d_l in place of E_l(y), for m near 1: inv is 1/x, rise 1/y - 1/x. */
@@ -246,20 +262,24 @@ struct spheres {
 /* What descends, order l of vector u at [l * UNROLL + u]; and the first orders at which some sphere has l >= x, l >= |y|. */
 struct ratios {
 	vec *x, *y_re, *y_im;          /* E_l(x), l >= x - 1; E_l(y), l >= |y|; or, m near 1, E_l(x) and d_l of all orders */
-	vec *size, *re, *im;           /* of p, l < |y|, absorbing spheres only */
+	struct trail p;                /* l < |y|, absorbing spheres only */
+	struct course course;          /* of p */
 	vec beyond[UNROLL];            /* |y|, rounded up */
 	int from_x, from_y;
 };
 
-#define RATIOS 6                       /* arrays of most + 2 orders in these */
+#define RATIOS 6                       /* arrays of most + 2 orders in these, or 3 with marks */
 
-INLINE struct ratios ratios_of(const struct spheres *s, vec *room)
+/* marks: NULL, or nothing is kept of p but marks[i], where it is at order i MIE_CHUNK, of those below most + MIE_CHUNK. */
+INLINE struct ratios ratios_of(const struct spheres *s, vec *room, struct descent *marks)
 {
 	size_t rows = ((size_t)s->most + 2) * UNROLL;
-	struct ratios e = { .x = room, .y_re = room + rows, .y_im = room + 2 * rows, .size = room + 3 * rows, .re = room + 4 * rows,
-		.im = room + 5 * rows };
-	vec inv_x[UNROLL], inv_re[UNROLL], inv_im[UNROLL], start_x[UNROLL], start_y[UNROLL], at[UNROLL], at_re[UNROLL], at_im[UNROLL];
-	int top_x = 0, top_y = 0, low_x = INT_MAX, low_y = INT_MAX, n = s->most, at_most = 0, at_least = INT_MAX;
+	struct ratios e = { .x = room, .y_re = room + rows, .y_im = room + 2 * rows };
+	struct course *c = &e.course;
+	vec inv_x[UNROLL], inv_re[UNROLL], inv_im[UNROLL], start_x[UNROLL], start_y[UNROLL];
+	int top_x = 0, top_y = 0, low_x = INT_MAX, low_y = INT_MAX, n = s->most;
+	c->most = 0;
+	c->least = INT_MAX;
 	e.from_x = e.from_y = n + 1;
 	for (int i = 0; i < WIDTH; i++) {
 		double x = LANE(s->x, i), re = LANE(s->m_re, i) * x, im = s->absorb ? LANE(s->m_im, i) * x : 0;
@@ -273,14 +293,14 @@ INLINE struct ratios ratios_of(const struct spheres *s, vec *room)
 			int begin = ratios_start(own, re, im), first = own < beyond || begin < beyond ? begin : beyond - 1;
 			LANE(start_y, i) = begin;
 			low_y = begin < low_y ? begin : low_y;
-			LANE(at, i) = first;
-			at_most = first > at_most ? first : at_most;
-			at_least = first < at_least ? first : at_least;
+			LANE(c->at, i) = first;
+			c->most = first > c->most ? first : c->most;
+			c->least = first < c->least ? first : c->least;
 			if (s->near || first < begin)
 				top_y = begin > top_y ? begin : top_y;
 		} else {
 			LANE(start_y, i) = 0;
-			LANE(at, i) = 0;
+			LANE(c->at, i) = 0;
 			low_y = 0;
 		}
 		LANE(e.beyond, i) = beyond;
@@ -312,8 +332,23 @@ INLINE struct ratios ratios_of(const struct spheres *s, vec *room)
 	EACH(u)
 		x.v[u] = y.v[u] = each(0);
 	if (s->absorb) {
-		ratios_complex(top_y, low_y, at_least, n, inv_re, inv_im, start_y, e.y_re, e.y_im, at_most, at, at_re, at_im);
-		descend(at_most, at_least, n, inv_re, inv_im, at, at_re, at_im, e.size, e.re, e.im, &x);
+		EACH(u) {
+			c->inv_r[u] = inv_re[u];
+			c->inv_i[u] = inv_im[u];
+		}
+		ratios_complex(top_y, low_y, c->least, n, inv_re, inv_im, start_y, e.y_re, e.y_im, c->most, c->at, c->at_r, c->at_i);
+		struct descent d = descent_start();
+		int l = (c->most + 1) & ~1;
+		if (!marks) {
+			e.p = (struct trail){ room + 3 * rows, room + 4 * rows, room + 5 * rows, 0, n };
+			descend(&d, c, l, 0, &e.p, &x);
+		}
+		for (int low; marks && l > MIE_CHUNK; l = low) {
+			low = (l - 1) / MIE_CHUNK * MIE_CHUNK;
+			descend(&d, c, l, low, &(struct trail){ .n = 0 }, &x);
+			if (low < n + MIE_CHUNK)
+				marks[low / MIE_CHUNK] = d;
+		}
 	} else {
 		for (; WIDTH == 1 && y.top > y.low && x.top > x.low; fall_two(&y))
 			fall_two(&x);
