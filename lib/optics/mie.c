@@ -173,11 +173,11 @@ double mie_error_of_sums(double x, int lossless, const struct mie_sums *s)
 	return 2 * DBL_EPSILON * (10 + x + (flat > 1 ? flat : 1));
 }
 
-struct efficiencies mie_efficiencies(double x, int lossless, int n, const double complex *a, const double complex *b, double *error)
+void mie_sums_of(int lossless, int n, const double complex *a, const double complex *b, struct mie_sums *sums)
 {
 	const struct mie_lanes *lanes = mie_lanes();
-	struct mie_sums sums = { 0 };
 	struct chunk c;
+	*sums = (struct mie_sums){ 0 };
 	for (int i = 0; i < 4; i++)
 		c.wave[i][0] = 0;
 	for (int l = 1, count; l <= n; l += count) {
@@ -193,10 +193,16 @@ struct efficiencies mie_efficiencies(double x, int lossless, int n, const double
 		}
 		struct mie_row row = { .absorbs = !lossless, .first = l, .count = count, .weighted = 1, .a_re = c.wave[0] + 1, .a_im = c.wave[1] + 1,
 			.b_re = c.wave[2] + 1, .b_im = c.wave[3] + 1, .sca = c.sca };
-		lanes->sums(&row, &sums);
+		lanes->sums(&row, sums);
 		for (int i = 0; i < 4; i++)
 			c.wave[i][0] = c.wave[i][count];
 	}
+}
+
+struct efficiencies mie_efficiencies(double x, int lossless, int n, const double complex *a, const double complex *b, double *error)
+{
+	struct mie_sums sums;
+	mie_sums_of(lossless, n, a, b, &sums);
 	if (error)
 		*error = mie_error_of_sums(x, lossless, &sums);
 	return mie_of_sums(x, lossless, &sums);

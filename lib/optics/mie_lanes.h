@@ -25,6 +25,9 @@ struct mie_sums {
 	double back_re, back_im;   /* sum (-1)^l (2l+1) (a - b), but for the sign */
 };
 
+/* Of coefficients a[n+1], b[n+1]; lossless: sca is not taken. */
+void mie_sums_of(int lossless, int n, const double complex *a, const double complex *b, struct mie_sums *sums);
+
 /* Efficiencies, and the estimate of their error, of sums at size parameter x. */
 struct efficiencies mie_of_sums(double x, int lossless, const struct mie_sums *s);
 double mie_error_of_sums(double x, int lossless, const struct mie_sums *s);
