@@ -35,7 +35,7 @@ struct chunk {
 	double wave[4][1 + MIE_CHUNK + MIE_SPARE], sca[MIE_CHUNK + MIE_SPARE];
 };
 
-/* From so many terms on, what descends is computed twice, the second time chunk by chunk, instead of being kept in more memory than caches hold. */
+/* From so many terms on, what descends is computed twice, the second time chunk by chunk, and not kept in more memory than caches hold. */
 #define TWICE 16384
 
 /* Climb over orders l .. l + count - 1. */
@@ -66,7 +66,7 @@ static struct trail descend_chunk(const struct descent *marks, const struct cour
 	return t;
 }
 
-/* The orders of one sphere, chunk after chunk to take: recurrences one order after the other, and from these the coefficients side by side. */
+/* The orders of one sphere, chunk after chunk to take: recurrences one order after the other, coefficients from these side by side. */
 static int by_orders(const struct mie_lanes *lanes, double x, double complex m, int n, int weighted,
                      void (*take)(const struct mie_lanes *, const struct mie_row *, void *), void *context)
 {
@@ -191,8 +191,8 @@ void mie_sums_of(int lossless, int n, const double complex *a, const double comp
 			c.wave[3][i] = w * cimag(b[at]);
 			c.sca[i - 1] = w * (norm2(a[at]) + norm2(b[at]));
 		}
-		struct mie_row row = { .absorbs = !lossless, .first = l, .count = count, .weighted = 1, .a_re = c.wave[0] + 1, .a_im = c.wave[1] + 1,
-			.b_re = c.wave[2] + 1, .b_im = c.wave[3] + 1, .sca = c.sca };
+		struct mie_row row = { .absorbs = !lossless, .first = l, .count = count, .weighted = 1,
+			.a_re = c.wave[0] + 1, .a_im = c.wave[1] + 1, .b_re = c.wave[2] + 1, .b_im = c.wave[3] + 1, .sca = c.sca };
 		lanes->sums(&row, sums);
 		for (int i = 0; i < 4; i++)
 			c.wave[i][0] = c.wave[i][count];

@@ -27,7 +27,8 @@ enum { EXT, SCA, ASYM, BACK_RE, BACK_IM, SUMS };
 INLINE void addends(const vec w[WEIGHTS], const vec *a, const vec *b, const vec *old_a, const vec *old_b, vec t[SUMS])
 {
 	t[EXT] = a[0] + b[0];
-	t[ASYM] = w[NEXT] * (old_a[0] * a[0] + old_a[1] * a[1] + old_b[0] * b[0] + old_b[1] * b[1]) + w[CROSS] * (a[0] * b[0] + a[1] * b[1]);
+	t[ASYM] = w[NEXT] * (old_a[0] * a[0] + old_a[1] * a[1] + old_b[0] * b[0] + old_b[1] * b[1]) +
+	          w[CROSS] * (a[0] * b[0] + a[1] * b[1]);
 	t[BACK_RE] = a[0] - b[0];
 	t[BACK_IM] = a[1] - b[1];
 }
@@ -104,8 +105,8 @@ INLINE void spheres(struct mie_block *b, int first, const double *const w[WEIGHT
 			orders(&m, &e, u, w, absorb, near, high, s.most, 1, 1);
 		for (int i = 0; i < LANES; i++) {
 			vec *q = m.sum;
-			b->sums[first + u * LANES + i] = (struct mie_sums){ LANE(&q[EXT], i), LANE(&q[SCA], i), LANE(&q[ASYM], i), LANE(&q[BACK_RE], i),
-				LANE(&q[BACK_IM], i) };
+			b->sums[first + u * LANES + i] = (struct mie_sums){ LANE(&q[EXT], i), LANE(&q[SCA], i), LANE(&q[ASYM], i),
+				LANE(&q[BACK_RE], i), LANE(&q[BACK_IM], i) };
 		}
 	}
 }
@@ -152,7 +153,8 @@ INLINE void row(const struct mie_row *r, int absorb, int near, int from_x, int f
 	struct glass g = glass_of(absorb, each(r->x), each(r->m_re), each(r->m_im), each(r->beyond), each(INFINITY));
 	const int weighted = r->weighted;
 	for (int i = 0; i < r->count; i += LANES) {
-		struct climb k = { .psi_old = load(r->psi + i), .psi = load(r->psi + i + 1), .chi_old = load(r->chi + i), .chi = load(r->chi + i + 1) };
+		struct climb k = { .psi_old = load(r->psi + i), .psi = load(r->psi + i + 1),
+			.chi_old = load(r->chi + i), .chi = load(r->chi + i + 1) };
 		struct fallen f;
 		vec a[2], b[2], sca, w[WEIGHTS];
 		weights(r->first + i, w);
@@ -225,7 +227,8 @@ static void sums_of_one(const struct mie_row *r, struct mie_sums *sums)
 {
 	double t[SUMS][MIE_CHUNK + MIE_SPARE];
 	for (int i = 0; i < r->count; i += LANES) {
-		const vec old_a[2] = { load(r->a_re + i - 1), load(r->a_im + i - 1) }, old_b[2] = { load(r->b_re + i - 1), load(r->b_im + i - 1) };
+		const vec old_a[2] = { load(r->a_re + i - 1), load(r->a_im + i - 1) };
+		const vec old_b[2] = { load(r->b_re + i - 1), load(r->b_im + i - 1) };
 		const vec a[2] = { load(r->a_re + i), load(r->a_im + i) }, b[2] = { load(r->b_re + i), load(r->b_im + i) };
 		vec w[WEIGHTS], own[SUMS];
 		weights(r->first + i, w);
@@ -243,7 +246,8 @@ static void sums_of_one(const struct mie_row *r, struct mie_sums *sums)
 /* pi_l is carried with the difference v_l = pi_l - pi_{l-1} (after Wiscombe 1979, with mu = 1 - c put in), so that c counts with all its
  * digits: v_{l+1} = ((l+1) v_l - (2l+1) c pi_l)/l, (pi_l + tau_l)/l = (l+1)/l v_l - c pi_l. Of unroll vectors of angles, sums from k[l][0]
  * on, and twice as many from there if both. */
-INLINE void sum_waves(int both, int unroll, int n, const struct mie_factors *restrict k, int side, const double *c_, double (*out)[MIE_ANGLES])
+INLINE void sum_waves(int both, int unroll, int n, const struct mie_factors *restrict k, int side, const double *c_,
+                      double (*out)[MIE_ANGLES])
 {
 	vec c[UNROLL], p[UNROLL], v[UNROLL], sum[UNROLL][8];
 	for (int u = 0; u < unroll; u++) {

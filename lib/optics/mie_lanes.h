@@ -42,8 +42,8 @@ struct mie_block {
 
 #define mie_block_room(terms) ((6 * MIE_BLOCK + 4) * ((size_t)(terms) + 16))
 
-/* Orders first .. first + count - 1 of one sphere side by side: arrays begin with the first. They are read and written up to MIE_SPARE beyond
- * the last. */
+/* Orders first .. first + count - 1 of one sphere side by side: arrays begin with the first. They are read and written up to MIE_SPARE
+ * beyond the last. */
 #define MIE_CHUNK 512          /* at most count of these */
 #define MIE_SPARE 8
 
@@ -83,8 +83,8 @@ CPU_DECLARE(const struct mie_lanes, mie_lanes);
 /* mie_lanes - the build for this processor, by cpu_level. */
 const struct mie_lanes *mie_lanes(void);
 
-/* mie_alone - a sphere of n terms by itself, its orders side by side: *q and *error as of mie_many, to the last bit; 0, or -1 when memory ran
- * out. */
+/* mie_alone - a sphere of n terms by itself, its orders side by side: *q and *error as of mie_many, to the last bit; 0, or -1 when
+ * memory ran out. */
 int mie_alone(const struct mie_lanes *lanes, double x, double complex m, int n, struct efficiencies *q, double *error);
 
 #endif

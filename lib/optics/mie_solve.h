@@ -10,9 +10,9 @@
  *
  * Every sum here but Re(A* C) has terms of one sign: extinction by a weak absorber is not lost, and Re a_l >= |a_l|^2 holds.
  *
- * Below |y|, f comes without a division from psi_l(y) itself: f = p_{l-1}/(m p_l) + l (1 - 1/m^2)/x and m p_{l-1}/p_l, where p is psi(y) times
- * what you will, here times p_l, or times |p_l|^2 where y is complex; with Im(p_{l-1} p_l*) a sum of terms of one sign. p ascends where y is
- * real, and descends where it is not: upward it would drown in what grows with Im y.
+ * Below |y|, f comes without a division from psi_l(y) itself: f = p_{l-1}/(m p_l) + l (1 - 1/m^2)/x, for b_l m p_{l-1}/p_l, with p any
+ * multiple of psi(y). A .. D are computed times p_l, or times |p_l|^2 where y is complex, with Im(p_{l-1} p_l*) a sum of terms of one sign.
+ * p ascends where y is real, and descends where it is not: upward it would drown in what grows with Im y.
  *
  * From |y| on, E in place of D removes the terms (l+1)/z which cancel in b_l where z is small, so that no separate series is needed there.
  *
@@ -29,8 +29,8 @@
 #include <stddef.h>
 
 /* First order of the downward recurrence that leaves no trace at order n (rounding included) of its start with 0; even. With
- * l = |z| + t |z|^(1/3), psi_l/chi_l falls as e^(-1.89 t^(3/2)) beyond |z|; it must fall by 1e-17 from n on, and a few orders do where |z| is small. Below |z|, where
- * |E_l|^2 = 1 - 2 l Im z / |z|^2 and less, an absorbing sphere forgets the start earlier: where the product of these is e^-45. */
+ * l = |z| + t |z|^(1/3), psi_l/chi_l falls as e^(-1.89 t^(3/2)) beyond |z|; it must fall by 1e-17 from n on, and a few orders do where |z| is
+ * small. Below |z|, where |E_l|^2 = 1 - 2 l Im z / |z|^2 and less, an absorbing sphere forgets the start earlier: where the product of these is e^-45. */
 INLINE int ratios_start(int n, double re, double im)
 {
 	double z = sqrt(re * re + im * im), edge = lane_cbrt(z), t = (n - z) / edge;
@@ -39,8 +39,8 @@ INLINE int ratios_start(int n, double re, double im)
 	return (int)(forgotten < beyond ? forgotten : beyond) & ~1;
 }
 
-/* What descends by ratios: E_l(z), 1/z = inv, from order `top` (even) to `low`, stored for l <= n + 1. Before its own start, at orders above it,
- * a lane's is 0; least: of these starts. */
+/* What descends by ratios: E_l(z), 1/z = inv, from order `top` (even) to `low`, stored for l <= n + 1. Before its own start, at orders
+ * above it, a lane's is 0; least: of these starts. */
 struct fall {
 	int top, least, low, n;
 	const vec *inv, *start;
@@ -80,10 +80,10 @@ INLINE void fall_to_end(struct fall *f)
 	f->top = own.top;
 }
 
-/* The same for complex z, all of it; |t|^2 is kept off zero alike. Into at_r, at_i besides, E at a lane's own order `at`, none above `most`; 0 where that
- * is above its start. */
-INLINE void ratios_complex(int top, int least, int low, int n, const vec *inv_r, const vec *inv_i, const vec *start, vec *er, vec *ei, int most,
-                           const vec *at, vec *at_r, vec *at_i)
+/* The same for complex z, all of it; |t|^2 is kept off zero alike. Into at_r, at_i besides, E at a lane's own order `at`, none above
+ * `most`; 0 where that is above its start. */
+INLINE void ratios_complex(int top, int least, int low, int n, const vec *inv_r, const vec *inv_i, const vec *start, vec *er, vec *ei,
+                           int most, const vec *at, vec *at_r, vec *at_i)
 {
 	vec vr[UNROLL], vi[UNROLL];
 	EACH(u)
@@ -184,7 +184,8 @@ INLINE struct descent descent_start(void)
 	return d;
 }
 
-/* From order `top` to low + 1, both even. Scaling by powers of 2 changes no digit. One sphere's x falls meanwhile: neither waits for the other. */
+/* From order `top` to low + 1, both even. Scaling by powers of 2 changes no digit. One sphere's x, if given, falls meanwhile: neither waits
+ * for the other. */
 INLINE void descend(struct descent *state, const struct course *c, int top, int low, const struct trail *t, struct fall *x)
 {
 	struct descent d = *state;
@@ -217,8 +218,8 @@ INLINE void descend(struct descent *state, const struct course *c, int top, int 
 }
 
 /* E_l(x), and d_l in place of E_l(y), for m near 1: inv is 1/x, rise 1/y - 1/x. */
-INLINE void ratios_near(int top, int least, int n, int absorb, const vec *inv, const vec *rise_r, const vec *rise_i, const vec *start, vec *ex,
-                               vec *dr, vec *di)
+INLINE void ratios_near(int top, int least, int n, int absorb, const vec *inv, const vec *rise_r, const vec *rise_i, const vec *start,
+                        vec *ex, vec *dr, vec *di)
 {
 	vec v[UNROLL], pr[UNROLL], pi[UNROLL];
 	EACH(u)
@@ -324,7 +325,8 @@ INLINE struct ratios ratios_of(const struct spheres *s, vec *room, struct descen
 			inv_im[u] = -(im / m2 * inv_x[u]);
 			start_y[u] = larger(start_x[u], start_y[u]);
 		}
-		ratios_near(top_x > top_y ? top_x : top_y, low_x > low_y ? low_x : low_y, n, s->absorb, inv_x, inv_re, inv_im, start_y, e.x, e.y_re, e.y_im);
+		ratios_near(top_x > top_y ? top_x : top_y, low_x > low_y ? low_x : low_y, n, s->absorb, inv_x, inv_re, inv_im, start_y,
+		            e.x, e.y_re, e.y_im);
 		return e;
 	}
 	struct fall x = { .top = top_x, .least = low_x, .low = e.from_x - 1, .n = n, .inv = inv_x, .start = start_x, .e = e.x };
@@ -410,8 +412,8 @@ INLINE struct climb climb_start(const struct glass *g, int with_p)
 	return k;
 }
 
-/* A step to order l. psi upward while l < x, by ratios beyond (upward it would be lost there; ratios fail where psi passes a zero); chi upward.
- * odd: 2 l - 1; ratio: E_{l-1}(x); from_x: some sphere has l >= x. */
+/* A step to order l. psi upward while l < x, by ratios beyond (upward it would be lost there; ratios fail where psi passes a zero); chi
+ * upward. odd: 2 l - 1; ratio: E_{l-1}(x); from_x: some sphere has l >= x. */
 INLINE void climb_to(struct climb *k, const struct glass *g, int with_p, double l, double odd, int from_x, vec ratio)
 {
 	vec w = odd * g->inv_x, psi = w * k->psi - k->psi_old, chi = w * k->chi - k->chi_old;

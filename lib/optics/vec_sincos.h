@@ -7,8 +7,8 @@
 #define VEC_ROUND 0x1.8p52    /* added and taken away, rounds to an integer; which then stands in the low bits */
 
 /* sin z and cos z, |z| < 2^30; error at most 1 unit of the last place of the larger of the two.
- * z is brought within pi/4 of a multiple k pi/2, which is taken off in pieces: k times the first three is exact, and what rounding leaves of the
- * difference is carried. The polynomials are Chebyshev fits of (sin r - r)/r^3 and (cos r - 1 + r^2/2)/r^4 in r^2. */
+ * z is brought within pi/4 of a multiple k pi/2, which is taken off in pieces: k times the first three is exact, and what rounding leaves
+ * of the difference is carried. The polynomials are Chebyshev fits of (sin r - r)/r^3 and (cos r - 1 + r^2/2)/r^4 in r^2. */
 INLINE void vec_sincos(vec z, vec *sine, vec *cosine)
 {
 	vec turns = z * 0x1.45f306dc9c883p-1 + VEC_ROUND, k = turns - VEC_ROUND;
