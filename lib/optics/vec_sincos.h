@@ -12,8 +12,9 @@
 INLINE void vec_sincos(vec z, vec *sine, vec *cosine)
 {
 	vec turns = z * 0x1.45f306dc9c883p-1 + VEC_ROUND, k = turns - VEC_ROUND;
-	vec near = (z - k * 0x1.921fb4p0) - k * 0x1.4442dp-24, third = k * 0x1.846988p-48, r = near - third;
-	vec rest = ((near - r) - third) - k * 0x1.8cc51701b839ap-72, w = r * r, half = 0.5 * w, one = 1.0 - half;
+	vec near = (z - k * 0x1.921fb4p0) - k * 0x1.4442dp-24, third = k * 0x1.846988p-48, most = near - third;
+	vec left = ((near - most) - third) - k * 0x1.8cc51701b839ap-72, r = most + left, rest = (most - r) + left;
+	vec w = r * r, half = 0.5 * w, one = 1.0 - half;
 	vec s = w * (-0.16666666666666666 + w * (0.008333333333330948 + w * (-0.00019841269836756774 + w * (2.7557316101617874e-06 +
 		w * (-2.505113165023518e-08 + w * 1.5918115263265974e-10)))));
 	vec c = w * w * (0.041666666666666664 + w * (-0.0013888888888887398 + w * (2.480158729876456e-05 + w * (-2.7557317271145144e-07 +
