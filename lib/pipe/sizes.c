@@ -221,14 +221,16 @@ const char *sizes_history(const struct sizes *s) { return s->table ? tab_history
 int sizes_by_x(const struct sizes *s) { return s->x.n > 0; }
 
 /* What the size at hand is at wavelength i. */
-static struct size size_at(const struct sizes *s, size_t i)
+static void size_at(const struct sizes *s, size_t i, struct size *out)
 {
-	struct size out = { .m = s->m[i], .host = s->host[i], .carried = s->carried, .first = i == 0 };
-	out.wavelength = sizes_by_x(s) ? 0 : s->wavelength[i];
-	out.radius = sizes_by_x(s) ? 0 : s->size_radius;
-	out.x = sizes_by_x(s) ? s->size_radius : sizes_x(s->size_radius, out.wavelength, creal(out.host));
-	out.x_im = size_x_im(&out);
-	return out;
+	out->m = s->m[i];
+	out->host = s->host[i];
+	out->carried = s->carried;
+	out->first = i == 0;
+	out->wavelength = sizes_by_x(s) ? 0 : s->wavelength[i];
+	out->radius = sizes_by_x(s) ? 0 : s->size_radius;
+	out->x = sizes_by_x(s) ? s->size_radius : sizes_x(s->size_radius, out->wavelength, creal(out->host));
+	out->x_im = size_x_im(out);
 }
 
 static void check_x(const struct sizes *s, const struct size *size)
@@ -275,7 +277,8 @@ static int next_size(struct sizes *s)
 			s->carried[i] = s->row[s->carried_col[i]];
 	}
 	for (size_t i = 0; i < s->nwave; i++) {
-		struct size size = size_at(s, i);
+		struct size size;
+		size_at(s, i, &size);
 		check_x(s, &size);
 	}
 	return 1;
@@ -285,7 +288,7 @@ int sizes_next(struct sizes *s, struct size *out)
 {
 	if (!s->wave && !next_size(s))
 		return 0;
-	*out = size_at(s, s->wave);
+	size_at(s, s->wave, out);
 	s->wave = (s->wave + 1) % s->nwave;
 	return 1;
 }

@@ -154,12 +154,12 @@ ratio() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.3g\n", a / b }'; }
 levels=${MOTES_CPU:-$(grep -q avx512dq /proc/cpuinfo && echo v4; grep -q avx2 /proc/cpuinfo && echo v3)}
 half() { case $1 in v4) echo 1 ;; *) echo 2 ;; esac; }
 half=$(half "${levels%%[!v0-9]*}")
-sizes=200000
-[ -z "${BENCH_QUICK:-}" ] || sizes=20000
+sizes=1000000    # seconds, not ticks
+[ -z "${BENCH_QUICK:-}" ] || sizes=400000
 t=$(awk -v n=1000 'BEGIN { for (i = 0; i < n; i++) { x = 0.1 * 10000^(i / (n - 1)); s += int(x + 4.05 * x^(1 / 3) + 8) } print s / n }')
 for m in '1.33 0 15' '1.5 0.1 10'; do
 	re=$(echo "$m" | cut -d' ' -f1) im=$(echo "$m" | cut -d' ' -f2) limit=$(echo "$m" | cut -d' ' -f3)
-	book=$(for _ in 1 2 3; do ./textbook "$re" "$im" 0.1 1000 $((sizes / 4)) 2>err; done | least)
+	book=$(for _ in 1 2 3; do ./textbook "$re" "$im" 0.1 1000 50000 2>err; done | least)
 	for level in $levels; do
 		own=$(per "$(MOTES_CPU=$level tool 0.1 1000 "$sizes" xsect --method mie --particle "$re+${im}i")" 1 "$t")
 		need "xsect, $level, m = $re+${im}i, 0.1:1000:$sizes, a term" "$(ratio "$book" "$own")" "$(ratio "$limit" "$(half "$level")")"
