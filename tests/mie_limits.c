@@ -1,6 +1,7 @@
 /* Lorenz-Mie within itself: conservation, normalisation, limits, and every corner of its domain. */
 #include "optics/angles.h"
 
+#include "quadrature.h"
 #include "tap.h"
 #include "waves.h"
 
@@ -46,20 +47,6 @@ static void conservation(void)
 	ok(worst <= 1e-12, "real m: C_sca = C_ext within 1e-12 (%.2g)", worst);
 	ok(lossless, "coefficients of a particle without absorption are recognised");
 	ok(lossy, "and those of a weakly absorbing one are not taken for it");
-}
-
-/* Integral of f sin theta over [0, pi] from n equal angles, exact for polynomials in cos theta of degree < n. */
-static double clenshaw_curtis(int n, const double *f)
-{
-	int steps = n - 1;
-	double sum = 0;
-	for (int k = 0; k <= steps; k += 2) {
-		double c = 0;    /* cosine coefficient of f */
-		for (int i = 0; i <= steps; i++)
-			c += (i == 0 || i == steps ? 0.5 : 1) * f[i] * cos(M_PI * (double)((long)i * k % (2 * steps)) / steps);
-		sum += (k == 0 || k == steps ? 0.5 : 1) * (2.0 / steps) * c * 2 / (1 - (double)k * k);
-	}
-	return sum;
 }
 
 static void normalisation(void)
@@ -141,6 +128,7 @@ static void everywhere(void)
 	static double all_x[n], alone[n], together[n];
 	static double complex all_m[n];
 	static struct efficiencies q_alone[n], q_together[n];
+	double streamed = 0;
 	int bad = 0;
 	for (int i = 0; i < n; i++) {
 		double x = pow(10, -8 + 12 * uniform());
@@ -167,10 +155,13 @@ static void everywhere(void)
 		drop(&w);
 		all_x[i] = x;
 		all_m[i] = CMPLX(re, im);
-		q_alone[i] = q;
-		alone[i] = error;
+		if (mie_many(1, &x, &all_m[i], &q_alone[i], &alone[i]))
+			exit(2);
+		double d = fmax(relative(q.ext, q_alone[i].ext), fabs(q.g - q_alone[i].g));
+		streamed = fmax(streamed, d / (cabs(all_m[i] - 1) < 1e-3 ? 1e-12 : 1e-13));
 	}
 	ok(!bad, "%d random spheres: %d not finite or not physical", n, bad);
+	ok(streamed <= 1, "each from its coefficients as by itself within 1e-13, 1e-12 for m near 1 (%.2g of that)", streamed);
 	bad = mie_many(n, all_x, all_m, q_together, together);
 	ok(!bad && !memcmp(q_alone, q_together, sizeof q_alone) && !memcmp(alone, together, sizeof alone), "all at once they are the same to the last bit");
 }
@@ -197,7 +188,7 @@ static void grids(void)
 
 int main(void)
 {
-	plan(14);
+	plan(15);
 	conservation();
 	normalisation();
 	axes();

@@ -1,60 +1,70 @@
 /* xsect - cross sections and asymmetry parameter of spheres. */
 #include "base/die.h"
-#include "optics/goa.h"
-#include "optics/mie.h"
+#include "optics/ladder.h"
 #include "pipe/coeffs.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#define GOA_ORDER 3    /* rays of the phase function, as published */
-#define GOA_FAILS 1    /* estimated error from which on the model does not hold (goa.h) */
+#define TOLERANCE 1e-6
+#define DARK 1         /* beta above which light is lost within a radius: extinction seen from afar grows as e^beta (mie_host.h) */
+#define FAILS 1    /* estimated error from which on a method does not hold */
 
-enum { MIE, GOA };
-static const char *const names[] = { "mie", "goa" };
-static const double codes[] = { 1, 3 };    /* as in the column method */
+static const char *const names[] = { "auto", "mie", "rayleigh", "goa", "cam", "evans-fournier" };    /* by enum method, as in the column */
 
 struct answer {
 	struct efficiencies q;
 	double error;
+	enum method method;
 };
 
-/* The estimate that is worst in this run. */
+/* The estimate that is worst of what a method did in this run. */
 struct worst {
+	long long n;
 	struct size size;
 	double error;
 };
 
-/* The published extinction formula has the ray of one chord only, the phase function has three. */
-static void by_goa(const struct size *size, struct answer *a)
-{
-	double ignored;
-	struct efficiencies rays = goa_efficiencies(size->x, size->m, GOA_ORDER, &ignored);
-	a->q = goa_efficiencies(size->x, size->m, 1, &a->error);
-	a->q.g = rays.g;
-	a->q.back = rays.back;
-}
+/* A host that absorbs too much for an extinction seen from afar. */
+struct dark {
+	struct size size;
+	double ext;
+};
 
-/* n sizes; those whose coefficients were read have them. */
-static void by_mie(int n, struct waves *w, struct answer *a)
+/* n sizes. Those whose coefficients were read, and those in a host that absorbs, are for Lorenz-Mie theory, one by one. */
+static void answers(struct ladder *ladder, int n, struct waves *w, struct answer *a)
 {
 	static double x[COEFFS_BATCH], error[COEFFS_BATCH];
 	static double complex m[COEFFS_BATCH];
 	static struct efficiencies q[COEFFS_BATCH];
-	if (n && w[0].a) {
-		for (int i = 0; i < n; i++)
-			a[i].q = mie_efficiencies(w[i].size.x, w[i].lossless, w[i].n, w[i].a, w[i].b, &a[i].error);
-		return;
-	}
+	static enum method used[COEFFS_BATCH];
+	static int of[COEFFS_BATCH];
+	int many = 0, failed = 0;
 	for (int i = 0; i < n; i++) {
-		x[i] = w[i].size.x;
-		m[i] = w[i].size.m;
+		if (w[i].a || w[i].size.x_im > 0)
+			continue;
+		x[many] = w[i].size.x;
+		m[many] = w[i].size.m;
+		of[many++] = i;
 	}
-	if (mie_many(n, x, m, q, error))
+	if (many && ladder_many(ladder, many, x, m, q, error, used))
 		die(NULL, "out of memory");
-	for (int i = 0; i < n; i++)
-		a[i] = (struct answer){ q[i], error[i] };
+	for (int k = 0; k < many; k++)
+		a[of[k]] = (struct answer){ q[k], error[k], used[k] };
+#pragma omp parallel for schedule(dynamic) reduction(|:failed) if (n - many > 1)
+	for (int i = 0; i < (many < n ? n : 0); i++) {
+		if (!w[i].a && w[i].size.x_im == 0)
+			continue;
+		if (waves_solve(&w[i]))
+			failed = 1;
+		else
+			a[i].q = waves_efficiencies(&w[i], &a[i].error);
+		a[i].method = METHOD_MIE;
+		waves_drop(&w[i]);
+	}
+	if (failed)
+		die(NULL, "out of memory");
 }
 
 static int columns(int by_x, struct tab_col *cols)
@@ -70,7 +80,7 @@ static int columns(int by_x, struct tab_col *cols)
 	return by_x ? 7 : 6;
 }
 
-static int values(int by_x, int method, const struct size *size, const struct answer *a, double *row)
+static int values(int by_x, const struct size *size, const struct answer *a, double *row)
 {
 	double area = by_x ? 1 : M_PI * size->radius * size->radius;
 	int n = 0;
@@ -80,16 +90,15 @@ static int values(int by_x, int method, const struct size *size, const struct an
 	row[n++] = a->q.g;
 	if (by_x)
 		row[n++] = a->q.back;
-	row[n++] = codes[method];
+	row[n++] = a->method;
 	row[n++] = a->error;
 	return n;
 }
 
-static struct worst run(struct coeffs *in, int method, const char *output, const char *command)
+static void run(struct coeffs *in, struct ladder *ladder, const char *output, const char *command, struct worst worst[], struct dark *dark)
 {
 	static struct waves w[COEFFS_BATCH];
 	static struct answer a[COEFFS_BATCH];
-	struct worst worst = { .error = -1 };
 	struct tab_col cols[TAB_COLS];
 	double row[TAB_COLS];
 	int by_x = coeffs_by_x(in), k = coeffs_columns(in, cols);
@@ -97,34 +106,50 @@ static struct worst run(struct coeffs *in, int method, const char *output, const
 	int ncarried = coeffs_carried(in, k, cols, cols + k), n = coeffs_batch(in, w);
 	struct tab_out *out = tab_create(output, coeffs_history(in), command, k + ncarried, cols);
 	for (; n; n = coeffs_batch(in, w)) {
-		if (method == MIE)
-			by_mie(n, w, a);
-#pragma omp parallel for schedule(dynamic) if (n > 1)
-		for (int i = 0; i < (method == GOA ? n : 0); i++)
-			by_goa(&w[i].size, &a[i]);
+		answers(ladder, n, w, a);
 		for (int i = 0; i < n; i++) {
-			int j = coeffs_key(in, &w[i].size, row);
-			j += values(by_x, method, &w[i].size, &a[i], row + j);
+			struct worst *most = &worst[a[i].method];
+			int key = coeffs_key(in, &w[i].size, row), j = key;
+			j += values(by_x, &w[i].size, &a[i], row + j);
 			memcpy(row + j, w[i].size.carried, (size_t)ncarried * sizeof *row);
 			tab_put(out, row);
-			if (!(a[i].error <= worst.error))
-				worst = (struct worst){ w[i].size, a[i].error };
+			if (!most->n++ || !(a[i].error <= most->error)) {
+				most->size = w[i].size;
+				most->error = a[i].error;
+			}
+			if (w[i].size.x_im > dark->size.x_im && (2 * w[i].size.x_im > DARK || !(a[i].q.ext > 0)))
+				*dark = (struct dark){ w[i].size, row[key] };
 			waves_free(&w[i]);
 		}
 	}
 	tab_finish(out);
-	return worst;
+}
+
+/* The worst row of each method: a warning where it does not hold, or what --verbose says. */
+static void tell(enum method method, const struct worst *w, int verbose)
+{
+	char at[SIZE_NAME];
+	size_name(&w->size, at);
+	if (method != METHOD_MIE && !(w->error < FAILS))
+		warn(names[method], "%s: this method does not hold there (estimated error %.2g, worst of this run)", at, w->error);
+	if (verbose)
+		warn("verbose", "method %s for %lld sizes; estimated error at most %.2g, at %s", names[method], w->n, w->error, at);
 }
 
 int main(int argc, char **argv)
 {
 	static struct sizes_options sizes = SIZES_INIT;    /* static: the lists in it live as long as the process */
-	int method = MIE, verbose = 0;
+	static struct worst worst[sizeof names / sizeof *names];
+	struct dark dark = { .size = { .x_im = 0 } };
+	int method = METHOD_AUTO, verbose = 0;
+	double tolerance = -1;
 	const char *output = NULL;
 	const struct opt opts[] = {
 		SIZES_OPTIONS(sizes),
-		{ "--method", OPT_CHOICE, &method, 0, 0, "mie|goa", "Lorenz-Mie theory, or geometrical optics approximation", 0 },
-		{ "--verbose", OPT_FLAG, &verbose, 0, 0, NULL, "say which method was used and its estimated error", 1 },
+		{ "--method", OPT_CHOICE, &method, 0, 0, "auto|mie|rayleigh|goa|cam|evans-fournier",
+		  "the cheapest within --tolerance, Lorenz-Mie theory, or an approximation", 0 },
+		{ "--tolerance", OPT_REAL, &tolerance, 1e-14, 1, "T", "largest error that auto may choose a cheaper method for", 0 },
+		{ "--verbose", OPT_FLAG, &verbose, 0, 0, NULL, "say which methods were used and their estimated errors", 1 },
 		OPT_OUTPUT(&output),
 		OPT_END
 	};
@@ -133,19 +158,25 @@ int main(int argc, char **argv)
 	struct opt_line args = opt_parse(&tool, argc, argv);
 	if (args.n > 1)
 		die(args.operand[1], "one table at most");
+	if (tolerance >= 0 && method != METHOD_AUTO)
+		die("--tolerance", "is for --method auto");
+	sizes.clear_host = method != METHOD_AUTO && method != METHOD_MIE;
 	struct coeffs *in = coeffs_open(&sizes, args.n ? args.operand[0] : NULL);
-	if (coeffs_read(in) && method != MIE)
+	if (coeffs_read(in) && method != METHOD_AUTO && method != METHOD_MIE)
 		die("--method", "%s has no use for the coefficients in %s", names[method], coeffs_read(in));
-	struct worst w = run(in, method, output, args.history);
-	char at[96];
-	if (coeffs_by_x(in))
-		snprintf(at, sizeof at, "x = %.9g", w.size.x);
-	else
-		snprintf(at, sizeof at, "radius %.9g um, wavelength %.9g um", w.size.radius, w.size.wavelength);
-	if (method == GOA && !(w.error < GOA_FAILS))
-		warn("goa", "%s: geometrical optics does not hold there (estimated error %.2g, worst of this run)", at, w.error);
-	if (verbose)
-		warn("verbose", "method %s; estimated error at most %.2g, at %s", names[method], w.error, at);
+	struct ladder *ladder = ladder_new(method, tolerance < 0 ? TOLERANCE : tolerance);
+	if (!ladder)
+		die(NULL, "out of memory");
+	run(in, ladder, output, args.history, worst, &dark);
+	for (int k = 0; k < (int)(sizeof names / sizeof *names); k++)
+		if (worst[k].n)
+			tell(k, &worst[k], verbose);
+	if (dark.size.x_im > 0) {
+		char at[SIZE_NAME];
+		warn("host", "%s: far-field extinction means little there: %.4g at beta = %.3g (worst of this run)",
+		     size_name(&dark.size, at), dark.ext, 2 * dark.size.x_im);
+	}
+	ladder_free(ladder);
 	coeffs_close(in);
 	return 0;
 }
