@@ -145,6 +145,14 @@ average -o straight.tab coarse.psd
 tabcmp --rel 1e-9 straight.tab turned.tab >diff.txt 2>&1
 ok $? 'the order of classes does not matter'
 is 1 "$(grep -c '^mie-phase: verbose: mean over [0-9]* sizes; half as many change it by [0-9.e-]*$' err)" '--verbose says how many sizes it took'
+for n in 16 801; do
+	psd lognormal --median 5um --gsd 1.2 --classes $n | tabtxt >text
+	case $n in 801) cut -f1,2 text ;; *) cat text ;; esac | txttab |
+		mie-phase --particle 1.5 --host 1.33+0.01i --wavelength 550nm --average --angles 3601 -o host.$n
+done
+e=$(error host.16 host.801)
+within "$e" 1e-3
+ok $? "in a host that absorbs as well ($e)"
 psd mono --radius 5um | average -o one.tab
 mie-phase --particle water --wavelength 550nm --radius 5um --tolerance 5e-4 -o single.tab
 e=$(error one.tab single.tab)

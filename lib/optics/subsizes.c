@@ -190,30 +190,23 @@ long subsizes_count(const struct subsizes *s, int level)
 	return n;
 }
 
-void subsizes_at(const struct subsizes *s, int level, long from, long count, double *radius, double *weight)
+void subsizes_at(const struct subsizes *s, int level, long k, double *radius, double *weight)
 {
 	const struct run *r = s->run;
-	for (; from >= of_run(r, level); r++)
-		from -= of_run(r, level);
-	for (long i = 0; i < count; i++, from++) {
-		if (from == of_run(r, level)) {
-			from = 0;
-			r++;
-		}
-		const struct cell *c = s->cell + r->first, *end = c + r->n - 1;
-		double h = r->length / (double)(r->steps << level), at = level ? 2.0 * (double)from + 1 : (double)from;
-		double v = r->v + at * h;
-		radius[i] = radius_at(s->scale, v, exp(end->hi));
-		double y = log(radius[i]);
-		while (c < end) {       /* the last cell that begins at y or below */
-			const struct cell *middle = c + (end - c + 1) / 2;
-			if (middle->lo <= y)
-				c = middle;
-			else
-				end = middle - 1;
-		}
-		weight[i] = density(c, y) / hypot(radius[i], s->scale) * h;
-		if (!level && (from == 0 || from == r->steps))
-			weight[i] /= 2;
+	for (; k >= of_run(r, level); r++)
+		k -= of_run(r, level);
+	const struct cell *c = s->cell + r->first, *end = c + r->n - 1;
+	double h = r->length / (double)(r->steps << level), at = level ? 2.0 * (double)k + 1 : (double)k;
+	*radius = radius_at(s->scale, r->v + at * h, exp(end->hi));
+	double y = log(*radius);
+	while (c < end) {       /* the last cell that begins at y or below */
+		const struct cell *middle = c + (end - c + 1) / 2;
+		if (middle->lo <= y)
+			c = middle;
+		else
+			end = middle - 1;
 	}
+	*weight = density(c, y) / hypot(*radius, s->scale) * h;
+	if (!level && (k == 0 || k == r->steps))
+		*weight /= 2;
 }

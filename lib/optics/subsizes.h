@@ -20,8 +20,8 @@ void subsizes_free(struct subsizes *s);
 /* subsizes_count - sizes that level >= 0 brings, each level halving the steps; level 0 has at least 64 steps, and 2 a class. */
 long subsizes_count(const struct subsizes *s, int level);
 
-/* subsizes_at - those from .. from + count - 1 of a level, radii (um) and weights. With I_0 = sum w f(r) over level 0, I_k =
+/* subsizes_at - the k-th of a level, 0 <= k < subsizes_count: radius (um) and weight. With I_0 = sum w f(r) over level 0, I_k =
  * I_(k-1)/2 + sum w f(r) over level k; I with f = 1 tends to the sum of the classes' weights. */
-void subsizes_at(const struct subsizes *s, int level, long from, long count, double *radius, double *weight);
+void subsizes_at(const struct subsizes *s, int level, long k, double *radius, double *weight);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include "base/die.h"
 #include "optics/angles.h"
+#include "optics/mie_host.h"
 #include "optics/subsizes.h"
 
 #include <limits.h>
@@ -19,7 +20,7 @@
 
 /* Of one wavelength. Sums of weight x c_sca x p, c_sca in um^2/pi, and of weight x c_sca. */
 struct mean {
-	struct size size;          /* of some particle; others differ by radius and x */
+	struct size size;          /* of some particle; others differ by radius, x and x_im */
 	double points_weight, weight;
 	double *points, *sum;      /* [angles]: sizes as given; the integral over classes */
 	double *p;                 /* [angles]: the mean */
@@ -64,6 +65,9 @@ static void check(const struct average *a, const struct size *s)
 	if (!(least >= SIZES_X_MIN && most <= SIZES_X_MAX && (hi == lo || cabs(s->m) * most <= 1e9)))
 		die(path(a), "the class of radius %g um has size parameters out of range: from %g to %g, %g times the relative index 1e9 at most",
 		    s->radius, SIZES_X_MIN, SIZES_X_MAX, cabs(s->m));
+	if (!(2 * s->x_im * (hi / s->radius) <= MIE_HOST_BETA_MAX))
+		die(path(a), "in the class of radius %g um 4 pi r Im(host) / wavelength goes up to %g, above %d", s->radius,
+		    2 * s->x_im * (hi / s->radius), MIE_HOST_BETA_MAX);
 }
 
 static size_t mean_of(struct average *a, const struct size *size)
@@ -233,11 +237,12 @@ static void add_level(struct average *a, int level)
 	long count = subsizes_count(a->sub, level);
 	for (long k = 0; k < count; k++) {
 		double radius, part;
-		subsizes_at(a->sub, level, k, 1, &radius, &part);
+		subsizes_at(a->sub, level, k, &radius, &part);
 		for (size_t m = 0; m < a->nmean; m++) {
 			struct waves one = { .size = a->mean[m].size };
 			one.size.x *= radius / one.size.radius;
 			one.size.radius = radius;
+			one.size.x_im = size_x_im(&one.size);
 			a->work += fmax(one.size.x, LEAST_X);
 			if (!fits(a, n, x, one.size.x)) {
 				add(a, w, weight, n, 0);
@@ -346,7 +351,7 @@ static int own_angles(struct average *a, int level_only)
 {
 	double x = 0;
 	for (size_t i = 0; i < a->nw; i++)
-		x = fmax(x, a->w[i].size.x * (limited(a, &a->w[i].size) ? a->w[i].size.carried[a->hi_col] / a->w[i].size.radius : 1));
+		x = fmax(x, size_extent(&a->w[i].size) * (limited(a, &a->w[i].size) ? a->w[i].size.carried[a->hi_col] / a->w[i].size.radius : 1));
 	if (!a->o->profile) {
 		take_angles(a, angles_count(x));
 		angles_grid(x, a->theta);
