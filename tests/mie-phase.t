@@ -2,7 +2,7 @@
 # mie-phase: all angles at once against the direct sum, the angles it chooses, and what it refuses.
 # shellcheck source=tests/lib.sh
 . "$(dirname "$0")/lib.sh"
-plan 40
+plan 41
 cd "$tmp" || exit 2
 
 # apart A B: the largest difference of amplitudes, in units of the largest amplitude in A.

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #define MOST_WORK 3e8      /* of size parameters together; see average.h */
+#define FIRST_LEVEL 2      /* that is judged; before, sizes can be off by more than they differ from half as many */
 #define LEAST_X 100        /* what a small sphere counts as */
 #define COARSE 16          /* how much coarser the first angles are than the finest; then a quarter of it, and so on */
 #define CHUNK_X 20000      /* sizes at a time: sum of size parameters, at most, but for one particle's */
@@ -355,10 +356,10 @@ static int own_angles(struct average *a, int level_only)
 	if (!a->o->profile) {
 		take_angles(a, angles_count(x));
 		angles_grid(x, a->theta);
-		return integrate(a, 1, 1);
+		return integrate(a, FIRST_LEVEL, 1);
 	}
 	/* A mean of many sizes is smooth, which is seen when it is there. */
-	int level = 1;
+	int level = FIRST_LEVEL;
 	for (double coarse = a->sub ? COARSE : 1;; coarse /= 4) {
 		take_angles(a, angles_fine(x / coarse, a->o->tolerance / 2, NULL));
 		angles_fine(x / coarse, a->o->tolerance / 2, a->theta);
