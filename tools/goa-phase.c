@@ -119,7 +119,8 @@ int main(int argc, char **argv)
 	const struct opt opts[] = {
 		SIZES_OPTIONS(sizes),
 		PHASE_OPTIONS(angles),
-		{ "--tolerance", OPT_REAL, &angles.tolerance, 1e-6, 0.1, "T", "of a mean: how little twice as many sizes change p, half the integral of |dp|", 0 },
+		{ "--tolerance", OPT_REAL, &angles.tolerance, 1e-6, 0.1, "T",
+		  "error allowed to the p of a mean over sizes: half the integral of |dp|", 0 },
 		{ "--verbose", OPT_FLAG, &angles.verbose, 0, 0, NULL, "say how many sizes a mean took", 1 },
 		{ "--order", OPT_INT, &order, 0, GOA_ORDER_MAX, "P",
 		  "highest order of rays, the number of chords inside the sphere: 3", 0 },

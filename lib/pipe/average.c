@@ -64,7 +64,7 @@ static void check(const struct average *a, const struct size *s)
 		die(path(a), "radius %g um does not lie between radius_lo %g um and radius_hi %g um", s->radius, lo, hi);
 	double least = s->x * (lo / s->radius), most = s->x * (hi / s->radius);
 	if (!(least >= SIZES_X_MIN && most <= SIZES_X_MAX && (hi == lo || cabs(s->m) * most <= 1e9)))
-		die(path(a), "the class of radius %g um has size parameters out of range: from %g to %g, %g times the relative index 1e9 at most",
+		die(path(a), "the class of radius %g um has size parameters out of range: from %g to %g, and 1e9 over the index %g",
 		    s->radius, SIZES_X_MIN, SIZES_X_MAX, cabs(s->m));
 	if (!(2 * s->x_im * (hi / s->radius) <= MIE_HOST_BETA_MAX))
 		die(path(a), "in the class of radius %g um 4 pi r Im(host) / wavelength goes up to %g, above %d", s->radius,
@@ -173,8 +173,8 @@ static int in_blocks(const struct average *a, struct waves *w, size_t n, double 
 	for (size_t i = 0; i < n; i++)
 		for (long b = 0; b < blocks; b++)
 			if (!failed)
-				failed |= adapt_p(profile, state[i], a->n - b * BLOCK < BLOCK ? a->n - b * BLOCK : BLOCK, a->theta + b * BLOCK,
-				                  p + i * (size_t)a->n + b * BLOCK);
+				failed |= adapt_p(profile, state[i], a->n - b * BLOCK < BLOCK ? a->n - b * BLOCK : BLOCK,
+				                  a->theta + b * BLOCK, p + i * (size_t)a->n + b * BLOCK);
 	for (size_t i = 0; i < n; i++)
 		if (state[i])
 			profile->close(state[i]);
@@ -351,8 +351,10 @@ static int thin(struct average *a)
 static int own_angles(struct average *a, int level_only)
 {
 	double x = 0;
-	for (size_t i = 0; i < a->nw; i++)
-		x = fmax(x, size_extent(&a->w[i].size) * (limited(a, &a->w[i].size) ? a->w[i].size.carried[a->hi_col] / a->w[i].size.radius : 1));
+	for (size_t i = 0; i < a->nw; i++) {
+		const struct size *s = &a->w[i].size;
+		x = fmax(x, size_extent(s) * (limited(a, s) ? s->carried[a->hi_col] / s->radius : 1));
+	}
 	if (!a->o->profile) {
 		take_angles(a, angles_count(x));
 		angles_grid(x, a->theta);
