@@ -23,7 +23,8 @@ GENERATED = materials kernels
 OBJECTS = $(patsubst lib/%.c,obj/%.o,$(filter-out lib/render/lanes.c $(LOOPS:%=lib/optics/%_lanes.c),$(wildcard lib/*/*.c))) \
 	$(GENERATED:%=obj/gen/%.o) $(LANE_OBJECTS) $(LOOP_OBJECTS)
 
-# The renderer's kernels, for each processor, transport and number of wavelengths (0: any; p: with a peak): LANES and the instructions.
+# The renderer's kernels, for each processor, transport and number of wavelengths and of channels (0: any, and spectral; p: with a peak):
+# LANES and the instructions.
 CPUS = scalar $(if $(filter x86_64,$(shell uname -m)),v2 v3 v4)
 LANES_scalar = -DLANES=1
 LANES_v2 = -DLANES=4 -march=x86-64-v2
@@ -31,7 +32,7 @@ LANES_v3 = -DLANES=8 -march=x86-64-v3
 LANES_v4 = -DLANES=16 -march=x86-64-v4 -mprefer-vector-width=512
 LANE_OBJECTS = $(foreach cpu,$(CPUS),$(foreach t,0 1 2 3,$(foreach w,0 1 3 1p 3p,obj/render/lanes/$(cpu)_$(t)_$(w).o)))
 lane_flags = -g1 -Wno-unused-parameter $(LANES_$(word 1,$(1))) -DRENDER=render_$(subst $(space),_,$(1)) -DTRANSPORT=$(word 2,$(1)) \
-	$(if $(filter-out 0,$(word 3,$(1))),-DWAVES=$(subst p,,$(word 3,$(1))) -DPEAK=$(if $(findstring p,$(word 3,$(1))),1,0))
+	$(if $(filter-out 0,$(word 3,$(1))),-DWAVES=$(subst p,,$(word 3,$(1))) -DCHANNELS=$(subst p,,$(word 3,$(1))) -DSPECTRAL=0 -DPEAK=$(if $(findstring p,$(word 3,$(1))),1,0))
 space = $(subst ,, )
 # Loops of lib/optics in doubles, lib/optics/*_lanes.c, for each processor. GOA's: without -fno-tree-slp-vectorize gcc contracts complex products
 # whatever -ffp-contract says.

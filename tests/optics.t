@@ -63,7 +63,8 @@ done
 	mie-coeffs $water psd.tab | mie-phase >streamed.tab
 	tabcmp direct.tab streamed.tab >diff.txt 2>&1
 	ok $? 'on the default grid, too'
-	mie-phase $water --average psd.tab >direct.tab
+	tabtxt --columns radius,weight psd.tab | txttab -o plain.tab    # coefficients say nothing of sizes within a class
+	mie-phase $water --average plain.tab >direct.tab
 	mie-coeffs $water psd.tab | mie-phase --average >streamed.tab
 	tabcmp direct.tab streamed.tab >diff.txt 2>&1
 	ok $? 'and averaged'

@@ -40,7 +40,7 @@ struct mie_block {
 	struct mie_sums sums[MIE_BLOCK];
 };
 
-#define mie_block_room(terms) ((6 * MIE_BLOCK + 4) * ((size_t)(terms) + 16))
+#define mie_block_room(terms) ((6 * MIE_BLOCK + 8) * ((size_t)(terms) + 16))    /* x 8 bytes: a multiple of 64 */
 
 /* Orders first .. first + count - 1 of one sphere side by side: arrays begin with the first. They are read and written up to MIE_SPARE
  * beyond the last. */

@@ -12,12 +12,13 @@
 
 static render_fn *build_for(const struct scene *s)
 {
-	render_fn *const build[][4][2][3] = { BUILDS(scalar),    /* [cpu][transport][without, with a peak][any, 1, 3 wavelengths] */
+	render_fn *const build[][4][2][3] = { BUILDS(scalar),    /* [cpu][transport][without, with a peak][any, 1, 3 wavelengths, channels] */
 #ifdef __x86_64__
 		BUILDS(v2), BUILDS(v3), BUILDS(v4)
 #endif
 	};
-	return build[cpu_level()][s->transport][s->peak > 0][s->n_waves == 1 ? 1 : s->n_waves == 3 ? 2 : 0];
+	int plain = s->channels == s->n_waves && !s->spectral;
+	return build[cpu_level()][s->transport][s->peak > 0][!plain ? 0 : s->n_waves == 1 ? 1 : s->n_waves == 3 ? 2 : 0];
 }
 
 void render_c(struct job *j, uint32 pixel, uint32 pixels, uint32 first, uint32 n, int threads)

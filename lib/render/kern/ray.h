@@ -8,8 +8,8 @@
 #define FAR 3e38f
 #define NONE (-1)
 
-/* A build for one transport, number of wavelengths, or for phase functions with or without a peak gives them as constants, one for a
- * scene alone the rest, too; here, as they are in the scene. */
+/* What a build has as constants: its transport, the number of wavelengths, channels, whether there is a peak, or all that a scene alone
+ * is told by; the rest is as in the scene. */
 #ifndef TRANSPORT
 #define TRANSPORT (s->transport)
 #endif
@@ -19,10 +19,12 @@
 #ifndef CHANNELS
 #define CHANNELS (s->channels)
 #define SPECTRAL (s->spectral)
+#endif
+#ifndef BRANCHES
+#define BRANCHES (s->branches > 1)
 #define HAS_GROUND (s->has_ground)
 #define ALL_ISOTROPIC (s->isotropic)
 #define COUNTED (s->counted)
-#define BRANCHES (s->branches > 1)
 #endif
 #ifdef WAVES
 #define CARRIED WAVES
