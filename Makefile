@@ -108,7 +108,8 @@ demo: programs
 # Charts of error against time, in $(B)/bench: of all, and, with Mitsuba 3 from PyPI where it can be had, of the renderer's speed.
 RENDER_BENCHES = render lanes particles
 MIE_BENCHES = mie
-BENCHES = $(filter-out $(RENDER_BENCHES) $(MIE_BENCHES),$(patsubst tests/bench/%.sh,%,$(wildcard tests/bench/*.sh)))
+XSECT_BENCHES = xsect
+BENCHES = $(filter-out $(RENDER_BENCHES) $(MIE_BENCHES) $(XSECT_BENCHES),$(patsubst tests/bench/%.sh,%,$(wildcard tests/bench/*.sh)))
 bench: programs $(CHECKS:%=$(B)/tests/%)
 	PATH="$(CURDIR)/$(B)/bin:$$PATH" MOTES_TESTS="$(CURDIR)/$(B)/tests" sh tests/bench/run $(B)/bench $(BENCHES)
 bench-render: programs
@@ -118,6 +119,9 @@ bench-render: programs
 bench-mie: programs
 	sh tests/bench/mie-venv $(B)/mie-venv
 	PATH="$(CURDIR)/$(B)/bin:$$PATH" CC="$(CC)" MOTES_PEERS="$(CURDIR)/$(B)/mie-venv" sh tests/bench/run $(B)/bench $(MIE_BENCHES)
+# Cross sections by the cheapest method within a tolerance.
+bench-xsect: programs $(B)/tests/ladder
+	PATH="$(CURDIR)/$(B)/bin:$$PATH" MOTES_TESTS="$(CURDIR)/$(B)/tests" sh tests/bench/run $(B)/bench $(XSECT_BENCHES)
 
 install: programs
 	install -d $(DESTDIR)$(PREFIX)/bin
@@ -128,7 +132,7 @@ install: programs
 clean:
 	rm -rf $(B)
 
-.PHONY: all programs asan-programs deps check asan demo bench bench-render bench-mie install clean
+.PHONY: all programs asan-programs deps check asan demo bench bench-render bench-mie bench-xsect install clean
 .SECONDARY:
 ifneq ($(filter deps,$(MAKECMDGOALS)),)
 .NOTPARALLEL:

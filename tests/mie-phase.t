@@ -2,7 +2,7 @@
 # mie-phase: all angles at once against the direct sum, the angles it chooses, and what it refuses.
 # shellcheck source=tests/lib.sh
 . "$(dirname "$0")/lib.sh"
-plan 25
+plan 28
 cd "$tmp" || exit 2
 
 # apart A B: the largest difference of amplitudes, in units of the largest amplitude in A.
@@ -78,6 +78,17 @@ done <<END
 1.33 300.49 2700
 1.33 1000.49 7700
 1.5+0.1i 1000.49 700
+END
+while read -r host x; do
+	mie-phase --particle 1.5 --host "$host" --size-parameter "$x" -o default.tab
+	mie-phase --particle 1.5 --host "$host" --size-parameter "$x" --angles 20001 --direct -o fine.tab
+	e=$(error default.tab fine.tab)
+	within "$e" 0.001005
+	ok $? "x = $x in a host $host: $(rows default.tab) angles, error $e"
+done <<END
+1.33+0.01i 100.49
+1.33+0.1i 300.49
+0.05+3i 1
 END
 for t in 1e-2 1e-4; do
 	mie-phase --particle 1.33 --size-parameter 100.49 --tolerance $t -o default.tab

@@ -1,6 +1,7 @@
 /* Lorenz-Mie within itself: conservation, normalisation, limits, and every corner of its domain. */
 #include "optics/angles.h"
 
+#include "quadrature.h"
 #include "tap.h"
 #include "waves.h"
 
@@ -46,20 +47,6 @@ static void conservation(void)
 	ok(worst <= 1e-12, "real m: C_sca = C_ext within 1e-12 (%.2g)", worst);
 	ok(lossless, "coefficients of a particle without absorption are recognised");
 	ok(lossy, "and those of a weakly absorbing one are not taken for it");
-}
-
-/* Integral of f sin theta over [0, pi] from n equal angles, exact for polynomials in cos theta of degree < n. */
-static double clenshaw_curtis(int n, const double *f)
-{
-	int steps = n - 1;
-	double sum = 0;
-	for (int k = 0; k <= steps; k += 2) {
-		double c = 0;    /* cosine coefficient of f */
-		for (int i = 0; i <= steps; i++)
-			c += (i == 0 || i == steps ? 0.5 : 1) * f[i] * cos(M_PI * (double)((long)i * k % (2 * steps)) / steps);
-		sum += (k == 0 || k == steps ? 0.5 : 1) * (2.0 / steps) * c * 2 / (1 - (double)k * k);
-	}
-	return sum;
 }
 
 static void normalisation(void)

@@ -2,7 +2,7 @@
 # The Lorenz-Mie tools: sizes in, coefficients streamed between them, bad input refused.
 # shellcheck source=tests/lib.sh
 . "$(dirname "$0")/lib.sh"
-plan 65
+plan 74
 cd "$tmp" || exit 2
 
 # Ten digits: what another libm or compiler changes lies far below.
@@ -23,10 +23,16 @@ water='--particle 1.33 --wavelength 450nm,550nm,650nm'
 # What comes out.
 tabtxt two.tab >two.txt
 # shellcheck disable=SC2086
-xsect $water two.tab | tabtxt | digits >out
+xsect --method mie $water two.tab | tabtxt | digits >out
 golden xsect.txt out
-xsect --particle 1.5+0.1i --size-parameter 0.01,1,100 | tabtxt | digits >out
+xsect --method mie --particle 1.5+0.1i --size-parameter 0.01,1,100 | tabtxt | digits >out
 golden xsect-x.txt out
+for m in 1.33 0.75 1.5+0.1i; do
+	for method in rayleigh evans-fournier cam; do
+		xsect --method $method --particle $m --size-parameter 0.1,1000 2>err | tabtxt | sed 1d
+	done
+done | digits >out
+golden xsect-methods.txt out
 mie-phase --particle 1.33+1e-5i --host 1.1 --wavelength 550nm --radius 0.2um --theta 0:180:45 | tabtxt | digits >out
 golden mie-phase.txt out
 mie-phase --particle 1.33 --wavelength 450nm,550nm --average --theta 180,0,90 two.tab | tabtxt | digits >out
@@ -41,7 +47,7 @@ for m in 1.33 1.33+1e-8i 1.5+0.1i; do
 	options="--particle $m --wavelength 450nm,550nm,650nm"
 	# shellcheck disable=SC2086
 	{
-		xsect $options psd.tab >direct.tab
+		xsect --method mie $options psd.tab >direct.tab
 		mie-coeffs $options psd.tab | xsect >streamed.tab
 		tabcmp --rel 1e-12 direct.tab streamed.tab >diff.txt 2>&1
 		is '0 49' "$? $(tabtxt streamed.tab | wc -l)" "mie-coeffs | xsect, $m"
@@ -64,7 +70,7 @@ done
 	is 1 "$(mie-phase $water psd.tab | tabtxt --columns radius,theta | awk 'NR > 1 { n[$1]++ } END { for (r in n) print n[r] % 3 == 0 }' | uniq)" \
 		'the wavelengths of a size share its grid'
 }
-xsect --particle 1.5 --size-parameter 1,10 >direct.tab
+xsect --method mie --particle 1.5 --size-parameter 1,10 >direct.tab
 mie-coeffs --particle 1.5 --size-parameter 1,10 | xsect >streamed.tab
 tabcmp direct.tab streamed.tab >diff.txt 2>&1
 ok $? 'and by size parameter'
@@ -72,7 +78,7 @@ is 1 "$(tabtxt --columns q_ext,q_sca streamed.tab | awk 'NR > 1 { print $1 == $2
 
 # The mean is the mean: from the rows of the single sizes.
 mie-phase --particle 1.33 --wavelength 550nm --theta 0,60,180 two.tab | tabtxt --columns radius,theta,p >single
-xsect --particle 1.33 --wavelength 550nm two.tab | tabtxt --columns radius,c_sca,weight >c
+xsect --method mie --particle 1.33 --wavelength 550nm two.tab | tabtxt --columns radius,c_sca,weight >c
 mie-phase --particle 1.33 --wavelength 550nm --theta 0,60,180 --average two.tab | tabtxt --columns theta,p >mean
 ok "$(awk 'FILENAME == "c" { w[$1] = $2 * $3; if (FNR > 1) sum += w[$1]; next }
 	FILENAME == "single" { if (FNR > 1) p[$2] += w[$1] * $3 / sum; next }
@@ -101,8 +107,33 @@ is "-2.775 3" "$(tabtxt --columns c_ext,method goa.tab | awk 'NR == 2 { printf "
 	'goa: the extinction of a small sphere as the published formula has it'
 xsect --method goa --particle 1.49 --wavelength 600nm --radius 10um >goa.tab 2>err
 is "0 0" "$? $(wc -l <err)" 'goa: no warning for a large sphere'
-xsect --particle 1.49 --size-parameter 3 --verbose 2>err >out.tab
-is 1 "$(grep -c 'method mie; estimated error' err)" '--verbose says the method'
+
+# The cheapest method within the tolerance, and what says so.
+xsect --particle 1.5+0.1i --tolerance 1e-3 --size-parameter 0.01:3e4:1000 --verbose 2>err >auto.tab
+sed -n 's/^xsect: verbose: method \([a-z]*\) for [0-9]* sizes; estimated error at most .*/\1/p' err | sort >out
+is 'cam mie rayleigh' "$(tr '\n' ' ' <out | sed 's/ $//')" \
+	'--verbose says each method and its worst estimate'
+is '1 2 4' "$(tabtxt --columns method auto.tab | sed 1d | sort -u | tr '\n' ' ' | sed 's/ $//')" 'auto: Rayleigh, Lorenz-Mie, asymptotics'
+ok "$(tabtxt --columns error auto.tab | awk 'NR > 1 && $1 >= 1e-3 { bad = 1 } END { print bad + 0 }')" 'auto: every estimate is below the tolerance'
+xsect --method mie --particle 1.5+0.1i --size-parameter 0.01:3e4:1000 >mie.tab
+tabtxt --columns q_ext,q_sca,g auto.tab >a
+tabtxt --columns q_ext,q_sca,g mie.tab | paste a - | awk '
+	NR > 1 { for (i = 1; i <= 3; i++) { e = $i - $(i + 3); if (i < 3) e /= $(i + 3); if (e * e > 1e-6) bad = 1 } }
+	END { exit bad + 0 }'
+ok $? 'auto: and the truth is, too'
+xsect --particle 1.5+0.1i --tolerance 1e-3 --size-parameter 0.01:3e4:1000 --threads 3 | cksum >three
+xsect --particle 1.5+0.1i --tolerance 1e-3 --size-parameter 0.01:3e4:1000 --threads 1 | cksum >one
+is "$(cat one)" "$(cat three)" 'auto: the same bytes with 1 and 3 threads'
+xsect --particle 1.33 --size-parameter 1,100 >auto.tab
+xsect --particle 1.33 --tolerance 1e-6 --method auto --size-parameter 1,100 | tabtxt >a
+tabtxt auto.tab | cmp -s - a
+ok $? 'auto within 1e-6 unless told otherwise'
+for method in rayleigh cam evans-fournier; do
+	x=100
+	[ $method = rayleigh ] || x=1
+	xsect --method $method --particle 1.33 --size-parameter 0.5,$x,200 2>err >out.tab
+	is "0 1" "$? $(grep -c "^xsect: $method: x = [0-9.]*: this method does not hold there" err)" "$method: one warning beyond its domain"
+done
 
 # What is refused.
 table() { printf '%b' "$1" | txttab >bad.tab; }
@@ -120,7 +151,6 @@ refused 'a radius beyond numbers' "'1e400um' is too large" xsect --particle 1.33
 refused 'a radius that is none' "'nanum' is not a length" xsect --particle 1.33 --wavelength 550nm --radius nanum
 refused 'x and wavelength' 'excludes --wavelength' xsect --particle 1.33 --wavelength 550nm --size-parameter 1
 refused 'the other sign convention' '--particle: .*positive one absorbs' xsect --particle 1.5-0.1i --size-parameter 1
-refused 'an absorbing host' '--host: .*absorbs' xsect --particle 1.5 --host 1.3+0.01i --size-parameter 1
 refused 'particle like host' 'does not scatter' xsect --particle 1.33 --host 1.33 --size-parameter 1
 refused 'an index out of all bounds' '--particle: .*from 0.001 to 2000' xsect --particle 1e9 --size-parameter 1
 refused 'an index too large for the size' '--particle: .*exceeds 1e\+09' xsect --particle 900 --size-parameter 1e7
@@ -142,6 +172,7 @@ refused 'an angle twice' 'stands twice' mie-phase --particle 1.33 --size-paramet
 mie-coeffs --particle 1.33 --wavelength 550nm --radius 1um >c.tab
 refused 'coefficients and --particle' '--particle: is settled' xsect --particle 1.33 c.tab
 refused 'coefficients and --host' '--host: is settled' mie-phase --host 1.33 c.tab
+refused 'a tolerance of one method' '--tolerance: is for --method auto' xsect --method mie --tolerance 1e-3 --particle 1.33 --size-parameter 1
 refused 'coefficients and goa' '--method: goa has no use' xsect --method goa c.tab
 tabtxt c.tab | sed 5d | txttab >bad.tab
 refused 'a coefficient is missing' 'row 4: n does not ascend' xsect bad.tab

@@ -135,6 +135,7 @@ int main(int argc, char **argv)
 		die("--order", "is for goa and incoherent; goa+ has its own");
 	if (order >= 0)
 		model.order = (int)order;
+	sizes.clear_host = 1;
 	struct coeffs *in = coeffs_open_sizes(&sizes, args.n ? args.operand[0] : NULL);
 	if (coeffs_table(in) && tab_find(coeffs_table(in), "a_re", "1") >= 0)
 		die(tab_path(coeffs_table(in)), "holds coefficients, not sizes; mie-phase takes them");

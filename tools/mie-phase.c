@@ -37,10 +37,9 @@ static struct phase_state *sphere_open(const void *context, struct waves *w, siz
 		free(s);
 		return NULL;
 	}
-	struct efficiencies q = mie_efficiencies(w->size.x, w->lossless, w->n, w->a, w->b, NULL);
 	s->w = w;
-	s->state.q_sca = q.sca;
-	s->state.norm = M_PI * w->size.x * w->size.x * q.sca;    /* k^2 C_sca: p as the sums give it, not renormalised */
+	s->state.q_sca = waves_efficiencies(w, NULL).sca;
+	s->state.norm = waves_norm(w, s->state.q_sca);    /* k^2 C_sca: p as the sums give it, not renormalised */
 	s->n = mie_enough(w->n, w->a, w->b, r->tolerance);
 	if (!r->direct && mie_series_pays(s->n, angles)) {
 		s->series = mie_series(s->n, w->a, w->b);

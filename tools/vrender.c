@@ -17,6 +17,7 @@
 #define BATCH_SECONDS 0.2      /* between two looks at the clock: a display's watchdog and Ctrl-C wait no longer for a device */
 #define FIRST_PATHS 16384      /* of the first batch */
 #define FIRST_PARTS 16         /* of the film, at least, while nothing is known of some of it */
+#define MOST_SAMPLES 1024      /* of a pixel at a time: more would not make more of the cache, but leave few pixels to a batch */
 
 static double now(void)
 {
@@ -41,17 +42,17 @@ static double next_batch(double paths, double seconds, int whole, double *slowes
 	return fmin(2 * paths, BATCH_SECONDS * *slowest);
 }
 
-/* Samples [from, to), in batches of some samples of some pixels. The C backend, which a signal ends at any time, takes all samples of a
- * pixel while what it sees of the medium is in the cache, and all pixels at once where nobody looks. */
+/* Samples [from, to), in batches of some samples of some pixels. A CPU takes all samples of a pixel while what it sees of the medium is
+ * in the cache, a GPU as many pixels as there are; the C backend, which a signal ends at any time, all pixels where nobody looks. */
 static void render(struct job *j, struct cl *cl, uint32 from, uint32 to, int threads)
 {
 	const uint32 pixels = (uint32)(j->scene.width * j->scene.height);
-	int visible = isatty(STDERR_FILENO);
+	int visible = isatty(STDERR_FILENO), wide = cl && cl_wide(cl);
 	double start = now(), shown = start, slowest = INFINITY, batch = FIRST_PATHS;
 	for (uint32 sample = from, n; sample < to; sample += n) {
-		n = !cl ? to - from : sample == from ? 1 : (uint32)fmin(fmax(1, batch / pixels), to - sample);
+		n = (uint32)fmin(to - sample, !wide ? MOST_SAMPLES : sample == from ? 1 : fmax(1, batch / pixels));
 		for (uint32 pixel = 0, part; pixel < pixels; pixel += part) {
-			double before = now(), most = cl && sample == from ? fmin(batch, pixels / FIRST_PARTS) : batch / n;
+			double before = now(), most = wide && sample == from ? fmin(batch, pixels / FIRST_PARTS) : batch / n;
 			part = cl || visible ? (uint32)fmin(fmax(1, most), pixels - pixel) : pixels;
 			if (cl)
 				cl_render(cl, pixel, part, sample, n);

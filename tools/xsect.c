@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define TOLERANCE 1e-6
+#define DARK 1         /* beta above which light is lost within a radius: extinction seen from afar grows as e^beta (mie_host.h) */
 #define FAILS 1    /* estimated error from which on a method does not hold */
 
 static const char *const names[] = { "auto", "mie", "rayleigh", "goa", "cam", "evans-fournier" };    /* by enum method, as in the column */
@@ -25,28 +26,45 @@ struct worst {
 	double error;
 };
 
-/* n sizes; those whose coefficients were read have them. */
+/* A host that absorbs too much for an extinction seen from afar. */
+struct dark {
+	struct size size;
+	double ext;
+};
+
+/* n sizes. Those whose coefficients were read, and those in a host that absorbs, are for Lorenz-Mie theory, one by one. */
 static void answers(struct ladder *ladder, int n, struct waves *w, struct answer *a)
 {
 	static double x[COEFFS_BATCH], error[COEFFS_BATCH];
 	static double complex m[COEFFS_BATCH];
 	static struct efficiencies q[COEFFS_BATCH];
 	static enum method used[COEFFS_BATCH];
-	if (n && w[0].a) {
-		for (int i = 0; i < n; i++) {
-			a[i].q = mie_efficiencies(w[i].size.x, w[i].lossless, w[i].n, w[i].a, w[i].b, &a[i].error);
-			a[i].method = METHOD_MIE;
-		}
-		return;
-	}
+	static int of[COEFFS_BATCH];
+	int many = 0, failed = 0;
 	for (int i = 0; i < n; i++) {
-		x[i] = w[i].size.x;
-		m[i] = w[i].size.m;
+		if (w[i].a || w[i].size.x_im > 0)
+			continue;
+		x[many] = w[i].size.x;
+		m[many] = w[i].size.m;
+		of[many++] = i;
 	}
-	if (ladder_many(ladder, n, x, m, q, error, used))
+	if (many && ladder_many(ladder, many, x, m, q, error, used))
 		die(NULL, "out of memory");
-	for (int i = 0; i < n; i++)
-		a[i] = (struct answer){ q[i], error[i], used[i] };
+	for (int k = 0; k < many; k++)
+		a[of[k]] = (struct answer){ q[k], error[k], used[k] };
+#pragma omp parallel for schedule(dynamic) reduction(|:failed) if (n - many > 1)
+	for (int i = 0; i < (many < n ? n : 0); i++) {
+		if (!w[i].a && w[i].size.x_im == 0)
+			continue;
+		if (waves_solve(&w[i]))
+			failed = 1;
+		else
+			a[i].q = waves_efficiencies(&w[i], &a[i].error);
+		a[i].method = METHOD_MIE;
+		waves_drop(&w[i]);
+	}
+	if (failed)
+		die(NULL, "out of memory");
 }
 
 static int columns(int by_x, struct tab_col *cols)
@@ -77,7 +95,7 @@ static int values(int by_x, const struct size *size, const struct answer *a, dou
 	return n;
 }
 
-static void run(struct coeffs *in, struct ladder *ladder, const char *output, const char *command, struct worst worst[])
+static void run(struct coeffs *in, struct ladder *ladder, const char *output, const char *command, struct worst worst[], struct dark *dark)
 {
 	static struct waves w[COEFFS_BATCH];
 	static struct answer a[COEFFS_BATCH];
@@ -91,7 +109,7 @@ static void run(struct coeffs *in, struct ladder *ladder, const char *output, co
 		answers(ladder, n, w, a);
 		for (int i = 0; i < n; i++) {
 			struct worst *most = &worst[a[i].method];
-			int j = coeffs_key(in, &w[i].size, row);
+			int key = coeffs_key(in, &w[i].size, row), j = key;
 			j += values(by_x, &w[i].size, &a[i], row + j);
 			memcpy(row + j, w[i].size.carried, (size_t)ncarried * sizeof *row);
 			tab_put(out, row);
@@ -99,6 +117,8 @@ static void run(struct coeffs *in, struct ladder *ladder, const char *output, co
 				most->size = w[i].size;
 				most->error = a[i].error;
 			}
+			if (w[i].size.x_im > dark->size.x_im && (2 * w[i].size.x_im > DARK || !(a[i].q.ext > 0)))
+				*dark = (struct dark){ w[i].size, row[key] };
 			waves_free(&w[i]);
 		}
 	}
@@ -106,14 +126,11 @@ static void run(struct coeffs *in, struct ladder *ladder, const char *output, co
 }
 
 /* The worst row of each method: a warning where it does not hold, or what --verbose says. */
-static void tell(int by_x, enum method method, const struct worst *w, int verbose)
+static void tell(enum method method, const struct worst *w, int verbose)
 {
-	char at[96];
-	if (by_x)
-		snprintf(at, sizeof at, "x = %.9g", w->size.x);
-	else
-		snprintf(at, sizeof at, "radius %.9g um, wavelength %.9g um", w->size.radius, w->size.wavelength);
-	if (!(w->error < FAILS))
+	char at[SIZE_NAME];
+	size_name(&w->size, at);
+	if (method != METHOD_MIE && !(w->error < FAILS))
 		warn(names[method], "%s: this method does not hold there (estimated error %.2g, worst of this run)", at, w->error);
 	if (verbose)
 		warn("verbose", "method %s for %lld sizes; estimated error at most %.2g, at %s", names[method], w->n, w->error, at);
@@ -123,12 +140,14 @@ int main(int argc, char **argv)
 {
 	static struct sizes_options sizes = SIZES_INIT;    /* static: the lists in it live as long as the process */
 	static struct worst worst[sizeof names / sizeof *names];
+	struct dark dark = { .size = { .x_im = 0 } };
 	int method = METHOD_AUTO, verbose = 0;
 	double tolerance = -1;
 	const char *output = NULL;
 	const struct opt opts[] = {
 		SIZES_OPTIONS(sizes),
-		{ "--method", OPT_CHOICE, &method, 0, 0, "auto|mie|rayleigh|goa|cam|evans-fournier", "how: the cheapest within --tolerance, Lorenz-Mie theory, ..", 0 },
+		{ "--method", OPT_CHOICE, &method, 0, 0, "auto|mie|rayleigh|goa|cam|evans-fournier",
+		  "the cheapest within --tolerance, Lorenz-Mie theory, or an approximation", 0 },
 		{ "--tolerance", OPT_REAL, &tolerance, 1e-14, 1, "T", "largest error that auto may choose a cheaper method for", 0 },
 		{ "--verbose", OPT_FLAG, &verbose, 0, 0, NULL, "say which methods were used and their estimated errors", 1 },
 		OPT_OUTPUT(&output),
@@ -141,16 +160,22 @@ int main(int argc, char **argv)
 		die(args.operand[1], "one table at most");
 	if (tolerance >= 0 && method != METHOD_AUTO)
 		die("--tolerance", "is for --method auto");
+	sizes.clear_host = method != METHOD_AUTO && method != METHOD_MIE;
 	struct coeffs *in = coeffs_open(&sizes, args.n ? args.operand[0] : NULL);
 	if (coeffs_read(in) && method != METHOD_AUTO && method != METHOD_MIE)
 		die("--method", "%s has no use for the coefficients in %s", names[method], coeffs_read(in));
 	struct ladder *ladder = ladder_new(method, tolerance < 0 ? TOLERANCE : tolerance);
 	if (!ladder)
 		die(NULL, "out of memory");
-	run(in, ladder, output, args.history, worst);
+	run(in, ladder, output, args.history, worst, &dark);
 	for (int k = 0; k < (int)(sizeof names / sizeof *names); k++)
 		if (worst[k].n)
-			tell(coeffs_by_x(in), k, &worst[k], verbose);
+			tell(k, &worst[k], verbose);
+	if (dark.size.x_im > 0) {
+		char at[SIZE_NAME];
+		warn("host", "%s: far-field extinction means little there: %.4g at beta = %.3g (worst of this run)",
+		     size_name(&dark.size, at), dark.ext, 2 * dark.size.x_im);
+	}
 	ladder_free(ladder);
 	coeffs_close(in);
 	return 0;

@@ -87,7 +87,7 @@ static void mean(const struct cam *c, double x, double *abs, double *pr)
 	}
 }
 
-/* Diffraction, the edge, and the ray through the centre with its orders p = 1, 3, ..; the root of Im >= 0, which holds for n < 1 as well. */
+/* Diffraction, the edge, and the ray through the centre with its orders p = 1, 3, ..; with the root of Im >= 0 for n < 1 as well. */
 static double extinction(const struct cam *c, double x)
 {
 	static const double c1 = 1.2551245556, c2 = 0.5322906033, c3 = 0.0677180533;
@@ -128,14 +128,15 @@ static double backward(const struct cam *c, double x)
 double cam_error(double x, double complex m)
 {
 	double complex step = cabs(m - 1) < 1e-9 ? 1e-9 : m - 1, square = step * (m + 1);
-	double g = cbrt(2 / fmax(x, LEAST)), g2 = g * g, g5 = g2 * g2 * g, g6 = g5 * g, n2 = cabs(square);
+	double n = creal(m), lost = x * cimag(m), g = cbrt(2 / fmax(x, LEAST)), g2 = g * g, g6 = g2 * g2 * g2, n2 = cabs(square);
 	/* orders left out: of the edge, whose series fails where its root is small, and of the central ray, where x |m - 1| is */
-	double edge = g6 * (1 + 0.13 / (n2 * n2) + n2 / 4);
-	double central = 0.25 * g6 * g2 * g * cabs(m * m / ((m + 1) * square * step * step)) * exp(-2 * x * cimag(m));
-	/* what resonances do, ~ x^(-2/3) at their peaks, or a critical angle, as far as absorption leaves it */
-	double inside = exp(-4 * x * fabs(cimag(csqrt(square))));
-	double ring = creal(m) < 1 ? 0.13 * sqrt(g5) * exp(-2 * x * cimag(m)) + (cimag(m) > 0 ? 2 * g5 : 0) : 0.3 * g2 * inside;
-	return edge + central + ring + 3e-8;
+	double edge = 2 * g6 * (1 + 0.13 / (n2 * n2) + n2 / 4);
+	double central = 0.25 * g6 * g2 * g * cabs(m * m / ((m + 1) * square * step * step)) * exp(-2 * lost);
+	/* what absorption leaves of resonances, whose peaks are ~ x^(-2/3), in two chords near the edge; or of the critical angle, where
+	 * chords are short */
+	double ring = n > 1 ? 0.36 * g2 * exp(-4 * lost * fmin(sqrt(n2) / n, 1)) :
+	              0.2 * pow(x, -0.7) / (1 + lost * lost / 25) + (lost > 0 ? 0.15 / x : 0);
+	return edge + central + ring + 5e-8;
 }
 
 struct efficiencies cam_at(const struct cam *c, double x, int ripple)
@@ -143,6 +144,7 @@ struct efficiencies cam_at(const struct cam *c, double x, int ripple)
 	struct efficiencies q;
 	double abs, pr, more_ext, more_abs, more_pr;
 	x = fmax(x, LEAST);
+	ripple = ripple && creal(c->m) > 1;
 	mean(c, x, &abs, &pr);
 	cam_rays_waves(&c->rays, x, ripple, &more_ext, &more_abs, &more_pr);
 	q.ext = extinction(c, x) + more_ext;

@@ -20,11 +20,11 @@ void cam_free(struct cam *c);
 void cam_reach(struct cam *c, double x);
 
 /* cam_at - after cam_reach; threads may ask at once. ripple: sum the waves near the edge that run round inside the sphere, 18 (x/2)^(1/3)
- * of them; without, ext lacks their ripple, and abs and g have its mean. */
+ * of them; without, or Re m < 1, ext lacks their ripple, and abs and g have its mean. */
 struct efficiencies cam_at(const struct cam *c, double x, int ripple);
 
-/* cam_error - estimate of the larger of the relative errors of ext and sca and the absolute error of g, of cam_at. At 1 percent of all
- * sizes and real indices, resonances and glories beside rainbows exceed it, with ripple or without. */
+/* cam_error - estimate of the larger of the relative errors of ext and sca and the absolute error of g, of cam_at. Resonances and glories
+ * beside rainbows exceed it for less than 1 percent of spheres that do not absorb, with ripple or without. */
 double cam_error(double x, double complex m);
 
 #endif

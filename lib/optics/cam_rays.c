@@ -13,7 +13,8 @@ static void find_pencils(double complex m, struct cam_rays *c)
 	double n = creal(m), edge = n < 1 ? asin(n) : M_PI_2;
 	for (int panel = 0; panel < (n < 1 ? 2 : 1) * CAM_PANELS; panel++) {
 		int inside = panel < CAM_PANELS;
-		double width = (inside ? edge : M_PI_2 - edge) / CAM_PANELS, lo = inside ? width * panel : edge + width * (panel - CAM_PANELS);
+		double width = (inside ? edge : M_PI_2 - edge) / CAM_PANELS;
+		double lo = inside ? width * panel : edge + width * (panel - CAM_PANELS);
 		for (int j = 0; j < GAUSS; j++) {
 			double i = lo + width * (1 + gauss_node[j]) / 2, u = sin(i), t = inside ? asin(u / n) : 0;
 			struct ray r = { .sin_i = u, .cos_i = cos(i) };
@@ -41,7 +42,8 @@ static void find_glories(double complex m, struct cam_rays *c)
 			if (cabs(f[0] + f[1]) < FAINT)
 				continue;
 			c->glory[c->glories++] = (struct cam_glory){
-				-2 * u * (f[0] + f[1]) * sqrt(2 * M_PI * r->cos_i) * cexp(I * M_PI_4 * (r->eighths + 1)), order_path(p, m, u),
+				-2 * u * (f[0] + f[1]) * sqrt(2 * M_PI * r->cos_i) * cexp(I * M_PI_4 * (r->eighths + 1)),
+				order_path(p, m, u),
 				u, r->slope, 2 * p * u * (n * n - 1) / q3 };
 		}
 	}
@@ -55,7 +57,8 @@ static void find_polygons(double complex m, struct cam_rays *c)
 	for (int k = 3; k <= CAM_ORDER; k++)
 		for (int turns = 1; 2 * turns < k; turns++) {
 			double t = M_PI_2 - M_PI * turns / k, u = n * sin(t), q = n * cos(t), cos_i = sqrt(fmax(1 - u * u, 0));
-			double angle = M_PI - 2 * t, out = M_PI - 2 * asin(fmin(u, 1)), common = -2 * u * sqrt(M_PI * q / k) * (turns % 2 ? -1 : 1);
+			double angle = M_PI - 2 * t, out = M_PI - 2 * asin(fmin(u, 1));
+			double common = -2 * u * sqrt(M_PI * q / k) * (turns % 2 ? -1 : 1);
 			double complex f0[2], f1[2], f2[2], turned = cexp(I * M_PI_4 * (1 - 2 * k));
 			struct ray r = { .sin_i = u, .cos_i = cos_i, .q = q };
 			struct cam_polygon g = { .u = u, .phase = 2 * k * q };

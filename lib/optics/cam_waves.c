@@ -25,7 +25,8 @@ static void refine(const double lambda[DEBYE_WIDTH], double z, struct debye_phas
 }
 
 /* The waves at DEBYE_WIDTH lambdas. */
-static void waves(double x, double complex m, const struct debye_bounds *bounds, const double lambda[DEBYE_WIDTH], struct debye out[DEBYE_WIDTH])
+static void waves(double x, double complex m, const struct debye_bounds *bounds, const double lambda[DEBYE_WIDTH],
+                  struct debye out[DEBYE_WIDTH])
 {
 	struct debye_phase outside, inside;
 	debye_phases(lambda, x, &outside);
@@ -106,8 +107,9 @@ static void stretch_mean(double x, double complex m, const struct stretch *s, do
 static double cross(double x, double complex m, double at, double start, double turn, double *abs, double *pr)
 {
 	double width = EDGE * cbrt(turn * x / 2) / x, middle = (start + turn) / 2, half = (turn - start) / 2, end = turn - width;
+	struct stretch arc = { ARCS, 1, acos((middle - at) / half), acos((middle - end) / half), middle, half };
 	if (end > at)
-		stretch_mean(x, m, &(struct stretch){ ARCS, 1, acos((middle - at) / half), acos((middle - end) / half), middle, half }, abs, pr);
+		stretch_mean(x, m, &arc, abs, pr);
 	at = fmax(at, fmax(end, 0));
 	end = turn + width;
 	if (end > at)
@@ -137,14 +139,16 @@ void cam_ripple(double x, double complex m, double *ext, double *abs, double *pr
 			lambda[i] = l0 + i + 0.5;
 		waves(x, m, &bounds, lambda, d);
 		for (int i = 0; i + 1 < DEBYE_WIDTH && l0 + i <= last; i++) {
-			double w = 2 * lambda[i] / (x * x) * cam_share(x, lambda[i]), between = (lambda[i] + 0.5) / (x * x) * cam_share(x, lambda[i] + 0.5);
+			double w = 2 * lambda[i] / (x * x) * cam_share(x, lambda[i]);
+			double between = (lambda[i] + 0.5) / (x * x) * cam_share(x, lambda[i] + 0.5);
 			for (int j = 0; j < 2; j++) {
 				const struct debye *p = &d[i], *q = &d[i + 1];
 				double complex all = whole(p, j);
 				*ext -= w * creal(p->t[j] * p->i[j] / (1 - p->i[j]));
 				if (absorbs)
 					*abs += w / 2 * (creal(mean(p->r[j], p->t[j], p->i[j], p->r[j], p->t[j], p->i[j])) - norm2(all));
-				*pr += between * creal(mean(p->r[j], p->t[j], p->i[j], q->r[j], q->t[j], q->i[j]) - all * conj(whole(q, j)));
+				*pr += between * creal(mean(p->r[j], p->t[j], p->i[j], q->r[j], q->t[j], q->i[j]) -
+				                       all * conj(whole(q, j)));
 			}
 		}
 	}

@@ -17,17 +17,19 @@ double evans_fournier_error(double x, double complex m)
 {
 	double n = creal(m), k = cimag(m), d = fabs(n - 1), edge = n < 1 ? 4 : 1.5 * (fmin(1, 0.1 + 5 * d) + fmax(0, 1.5 * (n - 1.6)));
 	if (x < 10)
-		return fmin(1, x);
-	return fmin(1, edge * pow(x, -2.0 / 3) + 0.015 + 0.02 * d + (k == 0 ? 0 : n < 1 ? 0.3 : k > d ? 0.16 : 0.06));
+		return fmin(1, (n < 1 ? 3 : 1.5) * x);
+	return fmin(1, edge * pow(x, -2.0 / 3) + 0.015 + (n < 1 ? 0.05 : 0.02) * d + (k == 0 ? 0 : n < 1 ? 0.3 : k > d ? 0.16 : 0.06));
 }
 
 struct efficiencies evans_fournier_efficiencies(double x, double complex m)
 {
-	double n = creal(m), k = cimag(m), d = fabs(n - 1), n2 = n * n, k2 = k * k, size2 = (n2 + k2) * (n2 + k2), diff = n2 - k2, root = sqrt(k);
+	double n = creal(m), k = cimag(m), d = fabs(n - 1), n2 = n * n, k2 = k * k;
+	double size2 = (n2 + k2) * (n2 + k2), diff = n2 - k2, root = sqrt(k);
 	double x2 = x * x, w = size2 + 4 * diff + 4;      /* |m^2 + 2|^2 */
 	double dipole = 8.0 / 3 * x2 * x2 * (size2 - 2 * diff + 1) / w;
 	double absorbed = 24 * n * k / w * x;
-	double small = absorbed + n * k * (4.0 / 15 + 20 / (3 * (4 * size2 + 12 * diff + 9)) + 4.8 * (7 * size2 + 4 * (diff - 5)) / (w * w)) * x * x2 +
+	double more = 4.0 / 15 + 20 / (3 * (4 * size2 + 12 * diff + 9)) + 4.8 * (7 * size2 + 4 * (diff - 5)) / (w * w);
+	double small = absorbed + n * k * more * x * x2 +
 		       dipole * ((size2 + diff - 2) * (size2 + diff - 2) - 36 * n2 * k2) / ((size2 - 2 * diff + 1) * w);
 	if (!(small > dipole))
 		small = dipole + absorbed;

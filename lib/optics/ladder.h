@@ -1,4 +1,5 @@
-/* ladder - efficiencies by the method asked for, or by the cheapest one whose estimated error is below a tolerance. Conventions as in mie.h. */
+/* ladder - efficiencies by the method asked for, or by the cheapest one whose estimated error is below a tolerance. Conventions as in
+ * mie.h. */
 #ifndef OPTICS_LADDER_H
 #define OPTICS_LADDER_H
 
@@ -17,6 +18,7 @@ void ladder_free(struct ladder *l);
  * what Lorenz-Mie theory has cost and would cost, in this call and those before it, so that which method serves a sphere depends on the
  * others; not on threads.
  * Returned: q[n], error[n] (estimates), used[n]; 0, or -1 when memory ran out */
-int ladder_many(struct ladder *l, int n, const double *x, const double complex *m, struct efficiencies *q, double *error, enum method *used);
+int ladder_many(struct ladder *l, int n, const double *x, const double complex *m, struct efficiencies *q, double *error,
+                enum method *used);
 
 #endif

@@ -18,13 +18,13 @@ static double complex times(double complex a, double complex b)
 	return CMPLX(creal(a) * creal(b) - cimag(a) * cimag(b), creal(a) * cimag(b) + cimag(a) * creal(b));
 }
 
-/* The orders left out: x^6 of scattering, and x^4 of absorption. */
+/* The orders left out: of scattering from x^6 on, and of absorption from x^4 on. */
 double rayleigh_error(double x, double complex m)
 {
-	double w = sqrt(norm2(m - 1) * norm2(m + 1)), x2 = x * x, w3 = w * w * w;
-	double error = (0.014 * w + 2e-4 * w3) * x2 * x2 * x2 + 4 * DBL_EPSILON;
-	if (cimag(m) > 0)
-		error += (0.017 + 0.02 * w + 3e-4 * w3) * x2 * x2;
+	double w = sqrt(norm2(m - 1) * norm2(m + 1)), w3 = w * w * w, x2 = x * x, x4 = x2 * x2;
+	double scattering = (0.0015 + 0.015 * w + 2e-4 * w3) * x4 * x2;
+	double absorption = cimag(m) > 0 ? (0.018 + 0.022 * w + 3e-4 * w3) * x4 : 0;
+	double error = (scattering + absorption) * (1 + x2 * (0.2 + 0.15 * w)) + 4 * DBL_EPSILON;
 	return x > LARGEST ? fmax(error, 1) : error;
 }
 

@@ -27,7 +27,7 @@ int adapt(const struct phase_profile *profile, const void *context, double toler
 {
 	double x = 0;
 	for (size_t i = 0; i < a->nwaves; i++)
-		x = fmax(x, a->w[i].size.x);
+		x = fmax(x, size_extent(&a->w[i].size));
 	long n = angles_fine(x, tolerance, NULL), *keep = malloc((size_t)n * sizeof *keep);
 	double *values = malloc(a->nwaves * (size_t)n * sizeof *values), **p = malloc(a->nwaves * sizeof *p);
 	a->theta = malloc((size_t)n * sizeof *a->theta);

@@ -1,7 +1,7 @@
 #include "pipe/coeffs.h"
 
 #include "base/die.h"
-#include "optics/mie.h"
+#include "optics/mie_host.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -28,11 +28,27 @@ int waves_solve(struct waves *w)
 {
 	if (w->a)
 		return 0;
-	w->n = mie_terms(w->size.x, w->size.m);
-	w->lossless = cimag(w->size.m) == 0;
+	int clear = w->size.x_im == 0;
+	double complex x = size_x(&w->size);
+	w->n = clear ? mie_terms(w->size.x, w->size.m) : mie_host_terms(x, w->size.m);
+	w->lossless = clear && cimag(w->size.m) == 0;
 	w->a = malloc(((size_t)w->n + 1) * sizeof *w->a);
 	w->b = malloc(((size_t)w->n + 1) * sizeof *w->b);
-	return w->a && w->b ? mie_coefficients(w->size.x, w->size.m, w->n, w->a, w->b) : -1;
+	if (!w->a || !w->b)
+		return -1;
+	return clear ? mie_coefficients(w->size.x, w->size.m, w->n, w->a, w->b) : mie_host_coefficients(x, w->size.m, w->n, w->a, w->b);
+}
+
+struct efficiencies waves_efficiencies(const struct waves *w, double *error)
+{
+	if (w->size.x_im > 0)
+		return mie_host_efficiencies(size_x(&w->size), w->n, w->a, w->b, error);
+	return mie_efficiencies(w->size.x, w->lossless, w->n, w->a, w->b, error);
+}
+
+double waves_norm(const struct waves *w, double q_sca)
+{
+	return w->size.x_im > 0 ? mie_host_norm(size_x(&w->size), q_sca) : M_PI * w->size.x * w->size.x * q_sca;
 }
 
 void waves_drop(struct waves *w)
@@ -51,8 +67,8 @@ void waves_free(struct waves *w)
 
 void coeffs_values(const struct waves *w, int l, double *row)
 {
-	row[HOST_RE] = w->size.host;
-	row[HOST_IM] = 0;
+	row[HOST_RE] = creal(w->size.host);
+	row[HOST_IM] = cimag(w->size.host);
 	row[N] = l;
 	row[A_RE] = creal(w->a[l]);
 	row[A_IM] = cimag(w->a[l]);
@@ -125,13 +141,13 @@ static void bad_row(const struct coeffs *c, const char *what)
 static struct size size_of_row(struct coeffs *c)
 {
 	const double *row = c->row;
-	struct size s = { .m = CMPLX(NAN, NAN), .host = row[c->col[HOST_RE]] };
+	struct size s = { .m = CMPLX(NAN, NAN), .host = CMPLX(row[c->col[HOST_RE]], row[c->col[HOST_IM]]) };
 	if (row[c->col[N]] != 1)
 		bad_row(c, "a size does not begin with n = 1");
-	if (row[c->col[HOST_IM]] != 0)
-		bad_row(c, "the host absorbs; only a host without absorption can be computed");
-	if (!(s.host > 0) || isinf(s.host))
+	if (!(creal(s.host) > 0) || isinf(creal(s.host)))
 		bad_row(c, "host_re is not greater than 0");
+	if (!(cimag(s.host) >= 0) || isinf(cimag(s.host)))
+		bad_row(c, "host_im is negative or no number");
 	if (c->by_x) {
 		s.x = row[c->key_col[0]];
 	} else {
@@ -141,11 +157,15 @@ static struct size size_of_row(struct coeffs *c)
 			bad_row(c, "wavelength is not a positive length");
 		if (!(s.radius > 0) || isinf(s.radius))
 			bad_row(c, "radius is not a positive length");
-		s.x = sizes_x(s.radius, s.wavelength, s.host);
+		s.x = sizes_x(s.radius, s.wavelength, creal(s.host));
 	}
+	s.x_im = size_x_im(&s);
 	if (!(s.x >= SIZES_X_MIN && s.x <= SIZES_X_MAX))
 		die(tab_path(c->table), "row %llu: size parameter %g is out of range: from %g to %g",
 		    (unsigned long long)tab_row(c->table), s.x, SIZES_X_MIN, SIZES_X_MAX);
+	if (!(2 * s.x_im <= MIE_HOST_BETA_MAX))
+		die(tab_path(c->table), "row %llu: 4 pi r host_im / wavelength is %g, out of range: at most %d",
+		    (unsigned long long)tab_row(c->table), 2 * s.x_im, MIE_HOST_BETA_MAX);
 	s.first = c->by_x || s.radius != c->last_radius;
 	c->last_radius = s.radius;
 	return s;
@@ -185,7 +205,7 @@ static int next_read(struct coeffs *c, struct waves *w, double *carried)
 		c->pending = tab_next(c->table, c->row);
 	} while (c->pending && c->row[c->col[N]] != 1);
 	w->a[0] = w->b[0] = 0;
-	w->lossless = mie_lossless(w->n, w->a, w->b);
+	w->lossless = w->size.x_im == 0 && mie_lossless(w->n, w->a, w->b);
 	return 1;
 }
 

@@ -3,10 +3,11 @@
  *
  * A table of coefficients has columns wavelength, radius (or x), host_re, host_im, n, a_re, a_im, b_re, b_im, and others that
  * are carried; a new size or wavelength begins where n returns to 1. It does not say m: a particle that does not absorb is
- * recognised by |a|^2 = Re a (mie_lossless). */
+ * recognised by |a|^2 = Re a (mie_lossless), but in a host that absorbs, where this makes no difference. */
 #ifndef PIPE_COEFFS_H
 #define PIPE_COEFFS_H
 
+#include "optics/mie.h"
 #include "pipe/sizes.h"
 
 struct waves {
@@ -19,6 +20,11 @@ struct waves {
 /* waves_solve - have the coefficients; nothing to do where they were read. 0, or -1 when memory ran out. Threads may solve
  * different waves at once. */
 int waves_solve(struct waves *w);
+
+/* waves_efficiencies - of solved waves; *error, unless NULL, as of mie_efficiencies or, in a host that absorbs, mie_host_efficiencies.
+ * waves_norm - the integral of (|S1|^2 + |S2|^2)/2 over the sphere, given Q_sca. */
+struct efficiencies waves_efficiencies(const struct waves *w, double *error);
+double waves_norm(const struct waves *w, double q_sca);
 
 /* waves_drop - give back the coefficients; waves_free - these and the rest. */
 void waves_drop(struct waves *w);

@@ -64,9 +64,10 @@ static void gather(struct job *j, struct batch *b, struct waves *next, int *more
 		if (j->o->average)
 			check_weight(j, &next->size);
 		b->w[b->n] = *next;
-		b->x_grid[b->n++] = next->size.x;
-		if (b->n - 1 > group && next->size.x > b->x_grid[group])
-			b->x_grid[group] = next->size.x;
+		double x = size_extent(&next->size);
+		b->x_grid[b->n++] = x;
+		if (b->n - 1 > group && x > b->x_grid[group])
+			b->x_grid[group] = x;
 		terms += (size_t)next->n;
 		*more = coeffs_next(j->in, next);
 	}

@@ -4,9 +4,11 @@
 #include "base/cpu.h"
 #include "base/die.h"
 #include "optics/ior.h"
+#include "optics/mie_host.h"
 
 #include <math.h>
 #include <omp.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,7 +26,7 @@ struct sizes {
 	size_t at;                          /* next of them */
 	size_t nwave, wave;                 /* wavelengths (1 by size parameter), and the next one */
 	const double *wavelength;
-	double *host;                       /* per wavelength */
+	double complex *host;               /* per wavelength */
 	double complex *m;
 	double size_radius;                 /* (or x) of the size at hand */
 };
@@ -32,6 +34,22 @@ struct sizes {
 double sizes_x(double radius, double wavelength, double host)
 {
 	return 2 * M_PI * radius * host / wavelength;
+}
+
+double size_x_im(const struct size *s)
+{
+	if (cimag(s->host) == 0)
+		return 0;
+	return s->wavelength > 0 ? sizes_x(s->radius, s->wavelength, cimag(s->host)) : s->x * (cimag(s->host) / creal(s->host));
+}
+
+const char *size_name(const struct size *s, char out[SIZE_NAME])
+{
+	if (s->wavelength > 0)
+		snprintf(out, SIZE_NAME, "radius %.9g um, wavelength %.9g um", s->radius, s->wavelength);
+	else
+		snprintf(out, SIZE_NAME, "x = %.9g", s->x);
+	return out;
 }
 
 static struct ior index_of(const char *option, const char *text)
@@ -52,6 +70,15 @@ static double complex index_at(const char *option, const char *text, const struc
 	return value;
 }
 
+/* p / h, with the digits of a small imaginary part; by a real h its parts are divided. */
+static double complex quotient(double complex p, double complex h)
+{
+	if (cimag(h) == 0)
+		return CMPLX(creal(p) / creal(h), cimag(p) / creal(h));
+	double scale = cabs(h), re = creal(h) / scale, im = cimag(h) / scale, pr = creal(p) / scale, pi = cimag(p) / scale;
+	return CMPLX(pr * re + pi * im, pi * re - pr * im);
+}
+
 /* Relative index at every wavelength; done before the first row, so that a bad index leaves no half a table behind. */
 static void indices(struct sizes *s, const struct sizes_options *o)
 {
@@ -67,11 +94,11 @@ static void indices(struct sizes *s, const struct sizes_options *o)
 	for (size_t i = 0; i < s->nwave; i++) {
 		double w = sizes_by_x(s) ? 0 : s->wavelength[i];
 		double complex p = index_at("--particle", o->particle, &particle, w), h = index_at("--host", o->host, &host, w);
-		if (cimag(h) != 0)
-			die("--host", "'%s' absorbs; only a host without absorption can be computed", o->host);
-		s->host[i] = creal(h);
-		s->m[i] = CMPLX(creal(p) / creal(h), cimag(p) / creal(h));
-		if (s->m[i] == 1)
+		if (cimag(h) != 0 && o->clear_host)
+			die("--host", "'%s' absorbs; only Lorenz-Mie theory is for such a host", o->host);
+		s->host[i] = h;
+		s->m[i] = quotient(p, h);
+		if (s->m[i] == 1 || p == h)
 			die("--particle", "'%s' has the host's own refractive index: it does not scatter", o->particle);
 		if (!(cabs(s->m[i]) >= M_MIN && cabs(s->m[i]) <= M_MAX))
 			die("--particle", "'%s' is %g times the host's refractive index, out of range: from %g to %g",
@@ -193,8 +220,28 @@ int sizes_carried(struct sizes *s, int nown, const struct tab_col *own, struct t
 const char *sizes_history(const struct sizes *s) { return s->table ? tab_history(s->table) : ""; }
 int sizes_by_x(const struct sizes *s) { return s->x.n > 0; }
 
-static void check_x(const struct sizes *s, double x, double complex m, double radius, double wavelength)
+/* What the size at hand is at wavelength i. */
+static struct size size_at(const struct sizes *s, size_t i)
 {
+	struct size out = { .m = s->m[i], .host = s->host[i], .carried = s->carried, .first = i == 0 };
+	out.wavelength = sizes_by_x(s) ? 0 : s->wavelength[i];
+	out.radius = sizes_by_x(s) ? 0 : s->size_radius;
+	out.x = sizes_by_x(s) ? s->size_radius : sizes_x(s->size_radius, out.wavelength, creal(out.host));
+	out.x_im = size_x_im(&out);
+	return out;
+}
+
+static void check_x(const struct sizes *s, const struct size *size)
+{
+	double x = size->x, radius = size->radius, wavelength = size->wavelength;
+	double complex m = size->m;
+	if (size->x_im > 0) {
+		char name[SIZE_NAME];
+		if (2 * size->x_im > MIE_HOST_BETA_MAX)
+			die("--host", "4 pi r Im(host) / wavelength is %g at %s, out of range: at most %d",
+			    2 * size->x_im, size_name(size, name), MIE_HOST_BETA_MAX);
+		m *= size->host / creal(size->host);    /* m x is now that of the complex x */
+	}
 	if ((creal(m) + cimag(m)) * x > 1e9 && cabs(m) * x > Y_MAX(m))    /* the former without a root */
 		die("--particle", "size parameter %g times relative index %g exceeds %g", x, cabs(m), Y_MAX(m));
 	if (x >= SIZES_X_MIN && x <= SIZES_X_MAX)
@@ -227,11 +274,10 @@ static int next_size(struct sizes *s)
 		for (int i = 0; i < s->ncarried; i++)
 			s->carried[i] = s->row[s->carried_col[i]];
 	}
-	for (size_t i = 0; i < s->nwave; i++)
-		if (sizes_by_x(s))
-			check_x(s, s->size_radius, s->m[i], 0, 0);
-		else
-			check_x(s, sizes_x(s->size_radius, s->wavelength[i], s->host[i]), s->m[i], s->size_radius, s->wavelength[i]);
+	for (size_t i = 0; i < s->nwave; i++) {
+		struct size size = size_at(s, i);
+		check_x(s, &size);
+	}
 	return 1;
 }
 
@@ -239,15 +285,8 @@ int sizes_next(struct sizes *s, struct size *out)
 {
 	if (!s->wave && !next_size(s))
 		return 0;
-	size_t i = s->wave;
-	out->first = i == 0;
-	out->m = s->m[i];
-	out->host = s->host[i];
-	out->wavelength = sizes_by_x(s) ? 0 : s->wavelength[i];
-	out->radius = sizes_by_x(s) ? 0 : s->size_radius;
-	out->x = sizes_by_x(s) ? s->size_radius : sizes_x(s->size_radius, out->wavelength, out->host);
-	out->carried = s->carried;
-	s->wave = (i + 1) % s->nwave;
+	*out = size_at(s, s->wave);
+	s->wave = (s->wave + 1) % s->nwave;
 	return 1;
 }
 

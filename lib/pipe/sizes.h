@@ -18,6 +18,7 @@ struct sizes_options {
 	struct reals radius;               /* um */
 	struct reals x;                    /* size parameters */
 	long long threads;
+	int clear_host;                    /* by the tool: a host that absorbs is refused */
 };
 
 #define SIZES_INIT { .host = "1.0", .threads = 1 }
@@ -33,10 +34,10 @@ struct sizes_options {
 
 /* One (size, wavelength). */
 struct size {
-	double x;                    /* size parameter 2 pi r eta_m / lambda */
+	double x, x_im;              /* size parameter 2 pi r eta_m / lambda; x_im > 0 where the host absorbs */
 	double complex m;            /* relative refractive index, particle over host */
 	double wavelength, radius;   /* um; both 0 when asked by size parameter */
-	double host;                 /* refractive index of the host */
+	double complex host;         /* refractive index of the host */
 	const double *carried;       /* values of the carried columns; good until the next size is asked for */
 	int first;                   /* first wavelength of this size */
 };
@@ -48,6 +49,17 @@ struct sizes;
 
 /* sizes_x - size parameter of a radius at a vacuum wavelength (both um) in a host of the given index. */
 double sizes_x(double radius, double wavelength, double host);
+
+/* size_x_im - its imaginary part, of a size whose wavelength and radius, or x, and host are known. */
+double size_x_im(const struct size *s);
+
+/* size_name - "radius .. um, wavelength .. um" or "x = ..", for messages; returns out. */
+#define SIZE_NAME 96
+const char *size_name(const struct size *s, char out[SIZE_NAME]);
+
+/* size_x, size_extent - the size parameter, and its modulus: partial waves count up to about there. */
+static inline double complex size_x(const struct size *s) { return CMPLX(s->x, s->x_im); }
+static inline double size_extent(const struct size *s) { return s->x_im > 0 ? cabs(size_x(s)) : s->x; }
 
 /* sizes_require - die where --particle, or what gives the wavelength, is missing, or options exclude each other. */
 void sizes_require(const struct sizes_options *o);

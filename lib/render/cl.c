@@ -10,8 +10,8 @@
 
 #define CHUNKS_MAX 8           /* buffers of a large table */
 #define N_TABLES 17            /* the scene is one */
-#define CPU_PIXELS 1024        /* of a work-item, at most: lanes run dry only at its end */
-#define CPU_SHARES 4           /* work-items for each compute unit, at least: none waits long for the last */
+#define CPU_PIXELS 256         /* of a work-item, or fewer, */
+#define CPU_PATHS 16384        /* of about so many paths: lanes run dry only at its end, and none waits long for the last */
 #define GPU_GROUP 64
 
 struct cl {
@@ -24,7 +24,7 @@ struct cl {
 	cl_uint n_buffers;         /* of the tables: the kernel's first arguments, followed by the film */
 	cl_mem *film, overflow;
 	uint32 n_films, film_pixels;      /* buffers, pixels of each */
-	uint32 units, lanes;       /* lanes: 1 where a work-item has one pixel */
+	uint32 lanes;              /* 1 where a work-item has one pixel */
 	int many;                  /* a work-item has many pixels */
 	size_t group;              /* work-items of a work-group */
 };
@@ -39,13 +39,11 @@ struct table {
  * do not make vectors of a path's loop; others run a pixel a work-item. */
 static void shape(struct cl *c, cl_device_id device)
 {
-	cl_uint units = 1, width = 1;
+	cl_uint width = 1;
 	size_t most = 1;
 	c->many = cl_kind(device) == CL_DEVICE_TYPE_CPU;
-	cl_ask(device, CL_DEVICE_MAX_COMPUTE_UNITS, &units, sizeof units);
 	cl_ask(device, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT, &width, sizeof width);
 	cl_ask(device, CL_DEVICE_MAX_WORK_GROUP_SIZE, &most, sizeof most);
-	c->units = units;
 	c->lanes = !c->many ? 1 : width >= 16 ? 16 : width >= 8 ? 8 : width >= 4 ? 4 : 1;
 	c->group = c->many ? 1 : most < GPU_GROUP ? most : GPU_GROUP;
 }
@@ -116,8 +114,9 @@ static char *options_for(const struct cl *c, cl_device_id device, int chunks, in
 	if (chunks > 1)
 		snprintf(parts, sizeof parts, " -DCHUNK_SHIFT=%d", shift);
 	const char *exact = rounding & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT ? " -cl-fp32-correctly-rounded-divide-sqrt" : "";
-	return xtext("-cl-std=CL1.2%s -DLANES=%d -DTRANSPORT=%d%s -DPEAK=%d -DCHUNKS=%d%s", exact, (int)c->lanes, s->transport, waves,
-	             s->peak > 0, chunks, parts);
+	return xtext("-cl-std=CL1.2%s -DLANES=%d -DTRANSPORT=%d%s -DPEAK=%d -DCHANNELS=%d -DSPECTRAL=%d -DHAS_GROUND=%d -DALL_ISOTROPIC=%d"
+	             " -DCOUNTED=%d -DBRANCHES=%d -DCHUNKS=%d%s", exact, (int)c->lanes, s->transport, waves, s->peak > 0, s->channels, s->spectral,
+	             s->has_ground, s->isotropic, s->counted, s->branches > 1, chunks, parts);
 }
 
 static void set(struct cl *c, cl_uint arg, size_t size, const void *value)
@@ -181,11 +180,8 @@ static void load_film(struct cl *c, size_t limit)
 /* Samples [first, first + n) of the pixels [from, to), which lie in one buffer of the film. */
 static void launch(struct cl *c, uint32 from, uint32 to, uint32 first, uint32 n)
 {
-	uint32 film = from / c->film_pixels, origin = film * c->film_pixels, chunk = 1;
-	if (c->many) {
-		chunk = (to - from) / (CPU_SHARES * c->units);
-		chunk = chunk < CPU_PIXELS ? (chunk / c->lanes + 1) * c->lanes : CPU_PIXELS;
-	}
+	uint32 film = from / c->film_pixels, origin = film * c->film_pixels;
+	uint32 chunk = !c->many ? 1 : n < CPU_PATHS / CPU_PIXELS ? CPU_PIXELS : CPU_PATHS / n + 1;
 	const uint32 number[] = { origin, from, to, chunk, first, n };
 	cl_uint arg = c->n_buffers;
 	set(c, arg++, sizeof(cl_mem), &c->film[film]);
@@ -240,6 +236,8 @@ struct cl *cl_start(struct job *j, int number, int verbose)
 	free(options);
 	return c;
 }
+
+int cl_wide(const struct cl *c) { return !c->many; }
 
 void cl_render(struct cl *c, uint32 pixel, uint32 pixels, uint32 first, uint32 n)
 {

@@ -45,6 +45,7 @@ void render_c(struct job *j, uint32 pixel, uint32 pixels, uint32 first, uint32 n
 struct cl;
 void cl_list(FILE *out);    /* a line a device: number, name, kind, platform, memory */
 struct cl *cl_start(struct job *j, int device, int verbose);      /* -1: the first GPU, or else the first; verbose says which */
+int cl_wide(const struct cl *c);   /* whether it wants very many pixels at once, as a GPU does */
 void cl_render(struct cl *c, uint32 pixel, uint32 pixels, uint32 first, uint32 n);    /* of the pixels [pixel, pixel + pixels) */
 void cl_finish(struct cl *c);      /* brings the film back */
 

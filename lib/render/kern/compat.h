@@ -8,6 +8,7 @@
 #define FN static inline __attribute__((always_inline))
 #endif
 #define GLOBAL __global
+#define UNROLL _Pragma("unroll")    /* a loop that is kept keeps its arrays in memory */
 typedef long int64;
 typedef uint uint32;
 typedef ulong uint64;
@@ -16,9 +17,13 @@ typedef ulong uint64;
 #include <string.h>
 #define FN static inline __attribute__((always_inline, unused))
 #define GLOBAL
+#define UNROLL                     /* done unasked */
 typedef int64_t int64;
 typedef uint32_t uint32;
 typedef uint64_t uint64;
 #endif
+
+/* i from 0 to n - 1, a few and known beforehand. */
+#define EACH(i, n) UNROLL for (int i = 0; i < (n); i++)
 
 #endif

@@ -64,9 +64,9 @@ FN mv film_values(const struct scene *s, struct path *p, mv m, fv *value)
 {
 	mv scattered = ilt(IV(0), p->order), often = ilt(IV(1), p->order), bad = NO_LANE;
 	fv zero = FV(0.f), all[3] = { zero, zero, zero };
-	for (int k = 0; k < FILM_SUMS; k++)
+	EACH(k, FILM_SUMS)
 		value[k] = zero;
-	for (int c = 0; c < s->channels; c++) {
+	for (int c = 0; c < CHANNELS; c++) {
 		/* what was seen last belongs to the order that the path ended in */
 		fv last = p->rgb[c], none = p->before[0][c], once = p->before[1][c];
 		fv single = SEL(often, once, SEL(scattered, last, zero)), more = SEL(often, last, zero);
@@ -85,9 +85,9 @@ FN mv film_values(const struct scene *s, struct path *p, mv m, fv *value)
 	fv share = s->n_groups == 1 ? FV(1.f) : to_float(p->waves.n * s->n_groups) / (float)s->n_waves;
 	value[SUM_ALPHA] = SEL(seen, share, zero);
 	value[SUM_DEPTH] = SEL(seen, share * (p->depth * s->depth_scale), zero);
-	value[SUM_LUMINANCE] = s->channels == 1 ? all[0] : 0.2126f * all[0] + 0.7152f * all[1] + 0.0722f * all[2];
+	value[SUM_LUMINANCE] = CHANNELS == 1 ? all[0] : 0.2126f * all[0] + 0.7152f * all[1] + 0.0722f * all[2];
 	bad |= film_clamp(m, &value[SUM_LUMINANCE]);
-	if (s->spectral)
+	if (SPECTRAL)
 		EACH_WAVE(j)
 			bad |= film_clamp(m, &p->spectrum[j]);
 	return bad;
@@ -102,9 +102,9 @@ FN uint64 film_take(const struct scene *s, GLOBAL int64 *sum, const struct path 
 	l8 n = film_integers(EIGHT(value));
 	*over |= film_add8(sum, n);
 	uint64 high = film_add_square(sum + SUM_SQUARE, PART(n, SUM_LUMINANCE));
-	if (s->channels == 3)
+	if (CHANNELS == 3)
 		*over |= film_add8(sum + SUM_GREEN, film_integers(EIGHT(value + SUM_GREEN)));
-	for (int j = 0; s->spectral && j < LANE(p->waves.n, i); j++) {
+	for (int j = 0; SPECTRAL && j < LANE(p->waves.n, i); j++) {
 		GLOBAL int64 *own = sum + FILM_SUMS + LANE(p->waves.first, i) + s->n_groups * j;
 		float v = LANE_FLOAT(p->spectrum[j], i);
 		l8 all = film_integers(F8(v, v, v, v, v, v, v, v)) + *own;

@@ -57,28 +57,38 @@ FN mv ieq(iv a, iv b) { return TRUTH(a == b); }
 #if LANES == 16
 #define EACH_AT(at, p, i) (at(p, i.s0), at(p, i.s1), at(p, i.s2), at(p, i.s3), at(p, i.s4), at(p, i.s5), at(p, i.s6), at(p, i.s7), \
                            at(p, i.s8), at(p, i.s9), at(p, i.sa), at(p, i.sb), at(p, i.sc), at(p, i.sd), at(p, i.se), at(p, i.sf))
-FN uint32 bits_of(mv m)
-{
-	int8 a = m.lo & (int8)(1, 2, 4, 8, 16, 32, 64, 128), b = m.hi & (int8)(256, 512, 1024, 2048, 4096, 8192, 16384, 32768);
-	int4 c = (a | b).lo | (a | b).hi;
-	return (uint32)(c.x | c.y | (c.z | c.w));
-}
 #elif LANES == 8
 #define EACH_AT(at, p, i) (at(p, i.s0), at(p, i.s1), at(p, i.s2), at(p, i.s3), at(p, i.s4), at(p, i.s5), at(p, i.s6), at(p, i.s7))
-FN uint32 bits_of(mv m)
-{
-	int4 a = (m.lo & (int4)(1, 2, 4, 8)) | (m.hi & (int4)(16, 32, 64, 128));
-	return (uint32)(a.x | a.y | (a.z | a.w));
-}
 #elif LANES == 4
 #define EACH_AT(at, p, i) (at(p, i.x), at(p, i.y), at(p, i.z), at(p, i.w))
-FN uint32 bits_of(mv m) { return (uint32)((m.x & 1) | (m.y & 2) | (m.z & 4) | (m.w & 8)); }
 #else
 #define EACH_AT(at, p, i) (at(p, i))
-FN uint32 bits_of(mv m) { return (uint32)(m & 1); }
 #endif
+/* Truths, by a byte a lane. The built-in any may test lane by lane; this one is seen to be a vector's. */
+#define any(m) any_lane(m)
+FN uint32 bits_of_bytes(ulong a) { return (uint32)(((a & 0x8040201008040201ul) * 0x0101010101010101ul) >> 56); }
+#if LANES == 16
+FN ulong2 bytes_of(mv m) { return as_ulong2(convert_char16(m)); }
+FN uint32 bits_of(mv m) { ulong2 a = bytes_of(m); return bits_of_bytes(a.x) | bits_of_bytes(a.y) << 8; }
+FN int count(mv m) { ulong2 a = bytes_of(m); return (int)((popcount(a.x) + popcount(a.y)) >> 3); }
+FN int any_lane(mv m)
+{
+	return (m.s0 | m.s1 | m.s2 | m.s3 | m.s4 | m.s5 | m.s6 | m.s7 | m.s8 | m.s9 | m.sa | m.sb | m.sc | m.sd | m.se | m.sf) != 0;
+}
+#elif LANES == 8
+FN ulong bytes_of(mv m) { return as_ulong(convert_char8(m)); }
+FN uint32 bits_of(mv m) { return bits_of_bytes(bytes_of(m)); }
+FN int count(mv m) { return (int)(popcount(bytes_of(m)) >> 3); }
+FN int any_lane(mv m) { return (m.s0 | m.s1 | m.s2 | m.s3 | m.s4 | m.s5 | m.s6 | m.s7) != 0; }
+#elif LANES == 4
+FN uint32 bits_of(mv m) { return (uint32)((m.x & 1) | (m.y & 2) | (m.z & 4) | (m.w & 8)); }
 FN int count(mv m) { return (int)popcount(bits_of(m)); }
-#define any(m) (bits_of(m) != 0)    /* the built-in one may test lane by lane */
+FN int any_lane(mv m) { return (m.x | m.y | m.z | m.w) != 0; }
+#else
+FN uint32 bits_of(mv m) { return (uint32)(m & 1); }
+FN int count(mv m) { return m & 1; }
+FN int any_lane(mv m) { return m; }
+#endif
 FN uint32 lowest(uint32 bits) { return 31 - clz(bits & -bits); }
 typedef float8 f8;
 typedef long8 l8;
@@ -104,37 +114,42 @@ FN void igather2(mv m, INTS p, iv i, iv *out)
 	out[1] = igather(m, p, i + 1);
 }
 #else
-/* A row is one load; the rest is transposition, of four rows at a time. Without loops, which a compiler may keep, and with them arrays
- * in memory. */
 #define PAIR(k) vload2(0, p + i.k)
-struct four { float4 x, y, z, w; };
-FN struct four four_rows(FLOATS p, int4 i)
-{
-	float4 r0 = vload4(0, p + i.x), r1 = vload4(0, p + i.y), r2 = vload4(0, p + i.z), r3 = vload4(0, p + i.w);
-	float4 a = (float4)(r0.x, r2.x, r0.y, r2.y), b = (float4)(r1.x, r3.x, r1.y, r3.y);
-	float4 c = (float4)(r0.z, r2.z, r0.w, r2.w), d = (float4)(r1.z, r3.z, r1.w, r3.w);
-	struct four t = { (float4)(a.x, b.x, a.y, b.y), (float4)(a.z, b.z, a.w, b.w), (float4)(c.x, d.x, c.y, d.y), (float4)(c.z, d.z, c.w, d.w) };
-	return t;
-}
+#define ROW(k) vload4(0, p + i.k)
+/* A row is one load; the rest is the transposition of rows of 128 bits, four lanes apart in a vector. By clang's own shuffle, since
+ * vectors written element by element may be made element by element; drivers of CPUs are made of clang. */
+#define MIX(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
+#if LANES == 16
+#define TWO(a, b) MIX(ROW(a), ROW(b), 0, 1, 2, 3, 4, 5, 6, 7)
+#define ROWS(a, b, c, d) MIX(TWO(a, b), TWO(c, d), 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
+#define EACH_ROW fv r0 = ROWS(s0, s4, s8, sc), r1 = ROWS(s1, s5, s9, sd), r2 = ROWS(s2, s6, sa, se), r3 = ROWS(s3, s7, sb, sf)
+#define LOW(a, b) MIX(a, b, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29)
+#define HIGH(a, b) MIX(a, b, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30, 15, 31)
+#define LOW2(a, b) MIX(a, b, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29)
+#define HIGH2(a, b) MIX(a, b, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31)
+#elif LANES == 8
+#define EACH_ROW fv r0 = (fv)(ROW(s0), ROW(s4)), r1 = (fv)(ROW(s1), ROW(s5)), r2 = (fv)(ROW(s2), ROW(s6)), r3 = (fv)(ROW(s3), ROW(s7))
+#define LOW(a, b) MIX(a, b, 0, 8, 1, 9, 4, 12, 5, 13)
+#define HIGH(a, b) MIX(a, b, 2, 10, 3, 11, 6, 14, 7, 15)
+#define LOW2(a, b) MIX(a, b, 0, 1, 8, 9, 4, 5, 12, 13)
+#define HIGH2(a, b) MIX(a, b, 2, 3, 10, 11, 6, 7, 14, 15)
+#else
+#define EACH_ROW fv r0 = ROW(s0), r1 = ROW(s1), r2 = ROW(s2), r3 = ROW(s3)
+#define LOW(a, b) MIX(a, b, 0, 4, 1, 5)
+#define HIGH(a, b) MIX(a, b, 2, 6, 3, 7)
+#define LOW2(a, b) MIX(a, b, 0, 1, 4, 5)
+#define HIGH2(a, b) MIX(a, b, 2, 3, 6, 7)
+#endif
 FN void gather4(mv m, FLOATS p, iv i, int offset, fv *out)
 {
 	i &= m;
 	p += offset;
-#if LANES == 16
-	struct four a = four_rows(p, i.lo.lo), b = four_rows(p, i.lo.hi), c = four_rows(p, i.hi.lo), d = four_rows(p, i.hi.hi);
-#define ALL(part) (fv)(a.part, b.part, c.part, d.part)
-#elif LANES == 8
-	struct four a = four_rows(p, i.lo), b = four_rows(p, i.hi);
-#define ALL(part) (fv)(a.part, b.part)
-#else
-	struct four a = four_rows(p, i);
-#define ALL(part) a.part
-#endif
-	out[0] = ALL(x);
-	out[1] = ALL(y);
-	out[2] = ALL(z);
-	out[3] = ALL(w);
-#undef ALL
+	EACH_ROW;
+	fv a = LOW(r0, r1), b = HIGH(r0, r1), c = LOW(r2, r3), d = HIGH(r2, r3);
+	out[0] = LOW2(a, c);
+	out[1] = HIGH2(a, c);
+	out[2] = LOW2(b, d);
+	out[3] = HIGH2(b, d);
 }
 FN void igather2(mv m, INTS p, iv i, iv *out)
 {

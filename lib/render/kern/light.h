@@ -32,7 +32,7 @@ FN fv surface_distance(const struct scene *s, struct ray r, iv *which)
 {
 	fv t = FV(FAR);
 	*which = IV(NONE);
-	if (s->has_ground) {
+	if (HAS_GROUND) {
 		t = (s->ground_height - r.from.y) * inverse(r.along.y);
 		mv met = lt(FV(0.f), t) & lt(t, FV(FAR));
 		*which = SEL(met, IV(GROUND), *which);
@@ -90,7 +90,7 @@ FN void map_locate(const struct scene *s, struct vec d, iv *row, iv *column)
 
 FN void map_value(const struct scene *s, const struct tables *t, mv m, iv row, iv column, fv *rgb)
 {
-	for (int c = 0; c < 3; c++)
+	EACH(c, 3)
 		rgb[c] = gather(m, t->map, 3 * (row * s->map_width + column) + c);
 }
 
@@ -191,7 +191,7 @@ FN void some_light(const struct scene *s, const struct tables *t, mv m, struct v
 		SET(own, d->t_end, other.t_end);
 		SET(own, d->which, other.which);
 		SET(own, d->density, other.density);
-		for (int k = 0; k < 3; k++)
+		EACH(k, 3)
 			SET(own, d->rgb[k], other.rgb[k]);
 		d->shines |= other.shines;
 		d->sun |= other.sun;
@@ -213,14 +213,14 @@ FN fv met(fv chance, fv density) { return SEL(lt(FV(0.f), chance), chance / (cha
 FN void quad_seen(const struct scene *s, int i, struct ray r, fv t, fv chance, fv *rgb)
 {
 	fv density = quad_density(s, &s->light[i], r.along, t), k = SEL(lt(FV(0.f), density), met(chance, density), FV(0.f));
-	for (int c = 0; c < 3; c++)
+	EACH(c, 3)
 		rgb[c] = s->light[i].rgb[c] * k;
 }
 
 /* Radiance of what lies behind everything: the environment, the map, suns with a disc; small ones apart. */
 FN void sky_seen(const struct scene *s, const struct tables *t, mv m, struct vec along, fv chance, fv *rgb, fv *suns)
 {
-	for (int c = 0; c < 3; c++) {
+	EACH(c, 3) {
 		rgb[c] = FV(s->environment[c]);
 		suns[c] = FV(0.f);
 	}
@@ -238,7 +238,7 @@ FN void sky_seen(const struct scene *s, const struct tables *t, mv m, struct vec
 		} else {
 			continue;
 		}
-		for (int c = 0; c < 3; c++)
+		EACH(c, 3)
 			if (l->small)
 				suns[c] += own[c] * k;
 			else

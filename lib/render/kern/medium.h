@@ -49,7 +49,7 @@ FN void march_begin(const struct scene *s, const struct tables *t, struct march 
 	} else if (TRANSPORT == TRANSPORT_GRID) {
 		fv target = free_path(SEL(flight, draw_bits(random, DRAW_FLIGHT), draw_bits(random, DRAW_SHADOW)));
 		target += SEL(flight, FV(0.f), FV(SHADOW_DEPTH));
-		if (!s->counted) {     /* in units of the integral of the density */
+		if (!COUNTED) {     /* in units of the integral of the density */
 			fv own = of_hero(s, t->extinction, m, w, hero), thinnest = own;
 			EACH_WAVE(j)
 				thinnest = least(thinnest, of_wave(s, t->extinction, 0, m, w, j));
@@ -85,7 +85,7 @@ FN void shadow_end(const struct scene *s, const struct tables *t, const struct m
 	} else if (TRANSPORT == TRANSPORT_GRID) {
 		fv thinnest = FV(FAR);
 		EACH_WAVE(j) {
-			out[j] = s->counted ? g->passage.depth[j] : of_wave(s, t->extinction, 0, m, w, j) * g->passage.depth[0];
+			out[j] = COUNTED ? g->passage.depth[j] : of_wave(s, t->extinction, 0, m, w, j) * g->passage.depth[0];
 			thinnest = least(thinnest, out[j]);
 		}
 		fv sure = most(FV(0.f), thinnest - SHADOW_DEPTH);    /* e^-sure was the chance to come through */
@@ -146,12 +146,12 @@ FN struct collision flight_voxels(const struct scene *s, const struct tables *t,
 	struct collision c = { m & g->reached, g->entry, passage_end(s, t, g, m), IV(s->n_classes), IV(NONE) };
 	c.point = add(g->entry, scale(g->along, c.t));
 	c.t += g->t0;
-	if (s->counted)
+	if (COUNTED)
 		c.class = s->only_class >= 0 ? IV(s->only_class)
 		    : class_in(s, t, c.happened, g, hero_of(s, w, hero), draw(random, DRAW_CLASS));
 	EACH_WAVE(j) {
-		fv own = of_wave(s, t->extinction, 0, m, w, j), depth = s->counted ? g->depth[j] : own * g->depth[0];
-		fv rate = s->counted ? of_class(s, t->disc, c.happened, c.class, w, j) * s->largest_inverse : own;
+		fv own = of_wave(s, t->extinction, 0, m, w, j), depth = COUNTED ? g->depth[j] : own * g->depth[0];
+		fv rate = COUNTED ? of_class(s, t->disc, c.happened, c.class, w, j) * s->largest_inverse : own;
 		event[j] = expneg(depth) * SEL(c.happened, rate, FV(1.f));
 	}
 	return c;

@@ -66,8 +66,6 @@ struct path {
 	fv lit[CARRIED], lamp[3];  /* what the light drawn adds through a clear medium: wavelength j sees lit[j] lamp[] */
 };
 
-#define BRANCHES (s->branches > 1)
-
 #define ISOTROPIC 0.0795774715f    /* sr^-1 */
 
 enum { DRAW_PIXEL_X, DRAW_PIXEL_Y, DRAW_HERO };
@@ -80,7 +78,7 @@ enum { DRAW_PIXEL_X, DRAW_PIXEL_Y, DRAW_HERO };
 FN void see_into(const struct scene *s, const struct tables *t, struct path *p, mv m, int j, fv k, const fv *rgb, fv *into)
 {
 	fv seen = p->weight[j] * k;
-	for (int i = 0; i < s->channels; i++) {
+	for (int i = 0; i < CHANNELS; i++) {
 #ifdef WAVES
 		fv c = FV(float_at(t->colour, 6 * j + i)), share = FV(float_at(t->colour, 6 * j + 3 + i));
 #else
@@ -89,8 +87,8 @@ FN void see_into(const struct scene *s, const struct tables *t, struct path *p, 
 #endif
 		fv add = SEL(m, seen * rgb[i], FV(0.f));
 		into[i] += c * add;
-		if (s->spectral)       /* all three shares, of one channel */
-			p->spectrum[j] += s->channels == 1 ? add : share * add;
+		if (SPECTRAL)       /* all three shares, of one channel */
+			p->spectrum[j] += CHANNELS == 1 ? add : share * add;
 	}
 }
 
@@ -106,12 +104,12 @@ FN void scattered(const struct scene *s, struct path *p, mv m, fv t)
 	if (!any(m))
 		return;
 	SET(m & ieq(p->order, IV(0)) & le(p->chance, FV(0.f)), p->depth, t);
-	for (int k = 0; k < 2; k++) {
+	EACH(k, 2) {
 		mv over = m & ieq(p->order, IV(k));
-		for (int i = 0; i < s->channels; i++)
+		for (int i = 0; i < CHANNELS; i++)
 			SET(over, p->before[k][i], p->rgb[i]);
 	}
-	for (int i = 0; i < s->channels; i++)
+	for (int i = 0; i < CHANNELS; i++)
 		SET(m, p->rgb[i], FV(0.f));
 	SET(m, p->order, p->order + 1);
 }
@@ -160,7 +158,7 @@ FN void path_begin(const struct scene *s, struct path *p, mv m, iv pixel, iv col
 	SET(m, p->chance, FV(0.f));
 	SET(m, p->depth, FV(-1.f));
 	SET(m, p->order, IV(0));
-	for (int i = 0; i < s->channels; i++) {
+	for (int i = 0; i < CHANNELS; i++) {
 		SET(m, p->rgb[i], FV(0.f));
 		SET(m, p->before[0][i], FV(0.f));
 		SET(m, p->before[1][i], FV(0.f));
@@ -195,7 +193,7 @@ FN void see_end(const struct scene *s, const struct tables *t, struct path *p, m
 		if (any(own)) {
 			fv quad[3];
 			quad_seen(s, i, p->ray, p->t_end, p->chance, quad);
-			for (int c = 0; c < 3; c++) {
+			EACH(c, 3) {
 				SET(own, rgb[c], quad[c]);
 				SET(own, suns[c], FV(0.f));
 			}
@@ -299,12 +297,12 @@ FN void path_light(const struct scene *s, const struct tables *t, struct path *p
 		inverse = inverse3(along);
 		set3(sunny, &p->sun, d.along);
 	}
-	if (s->isotropic)
+	if (ALL_ISOTROPIC)
 		EACH_WAVE(j)
 			value[j] = FV(ISOTROPIC);
 	else
 		phase_value(s, t, d.shines & NOT(ground), p->class, angle_between(p->ray.along, along), p->waves, value);
-	if (s->has_ground) {       /* on the side that the path comes from */
+	if (HAS_GROUND) {       /* on the side that the path comes from */
 		fv cosine = most(FV(0.f), SEL(lt(p->ray.along.y, FV(0.f)), along.y, -along.y));
 		EACH_WAVE(j)
 			SET(ground, value[j], cosine / PI);
@@ -338,7 +336,7 @@ FN void path_light(const struct scene *s, const struct tables *t, struct path *p
 		PUT(m, p->lit[j], SEL(d.shines, lit, FV(0.f)));
 		scattered = most(scattered, lit * density / alone);
 	}
-	for (int i = 0; i < s->channels; i++)
+	for (int i = 0; i < CHANNELS; i++)
 		PUT(m, p->lamp[i], d.rgb[i]);
 	if (MARCHES || PEAK) {     /* a march to a sun is long: where less is scattered than evenly, it is made as seldom, and counts the more */
 		fv q = SEL(d.sun & NOT(ground), least(FV(1.f), scattered * (1.f / ISOTROPIC)), FV(1.f));
@@ -375,7 +373,7 @@ FN void path_branch(const struct scene *s, struct path *p, mv m)
 	SET(again, p->class, stem->class);
 	SET(again, p->id, stem->id);
 	SET(again, p->random.counter, stem->counter);
-	for (int i = 0; i < s->channels; i++) {    /* what the branch before saw */
+	for (int i = 0; i < CHANNELS; i++) {    /* what the branch before saw */
 		SET(again, p->aside[0][i], p->aside[0][i] + SEL(often, p->before[1][i], p->rgb[i]));
 		SET(again, p->aside[1][i], p->aside[1][i] + SEL(often, p->rgb[i], FV(0.f)));
 		SET(again, p->rgb[i], FV(0.f));
@@ -406,7 +404,7 @@ FN mv path_arrive(const struct scene *s, const struct tables *t, struct path *p,
 	PUT(m, p->id, c.id);
 	mv first = hit & ieq(p->order, IV(0));
 	scattered(s, p, hit, c.t);
-	if (s->has_ground) {
+	if (HAS_GROUND) {
 		struct vec floor = add(p->ray.from, scale(p->ray.along, p->t_end));
 		floor.y = FV(s->ground_height);
 		set3(ground, &p->point, floor);
@@ -415,7 +413,7 @@ FN mv path_arrive(const struct scene *s, const struct tables *t, struct path *p,
 	}
 	EACH_WAVE(j) {
 		fv albedo = of_class(s, t->albedo, hit, p->class, p->waves, j);
-		PUT(m, p->weight[j], p->weight[j] * (s->has_ground ? SEL(hit, albedo, FV(s->ground_albedo)) : albedo));
+		PUT(m, p->weight[j], p->weight[j] * (HAS_GROUND ? SEL(hit, albedo, FV(s->ground_albedo)) : albedo));
 	}
 	if (BRANCHES && any(first | p->again)) {
 		path_branch(s, p, first);
@@ -458,10 +456,10 @@ FN mv path_depart(const struct scene *s, const struct tables *t, struct path *p,
 			see_into(s, t, p, lighted & NOT(straight | once), j, lit * through[j], p->lamp, p->aside[1]);
 		}
 	}
-	mv on = survives(s, p, m), ground = s->has_ground ? on & ieq(p->class, IV(NONE)) : NO_LANE, hit = on & NOT(ground);
+	mv on = survives(s, p, m), ground = HAS_GROUND ? on & ieq(p->class, IV(NONE)) : NO_LANE, hit = on & NOT(ground);
 	struct vec axis = p->ray.along, along;
 	fv azimuth = 2.f * PI * draw(&p->random, DRAW_AZIMUTH);
-	if (s->isotropic) {
+	if (ALL_ISOTROPIC) {
 		fv u = draw(&p->random, DRAW_COSINE);
 		cs = 1.f - 2.f * u;
 		sn = 2.f * root(u * (1.f - u));
@@ -477,14 +475,14 @@ FN mv path_depart(const struct scene *s, const struct tables *t, struct path *p,
 			fv high = most(FV(0.f), value[j] - of_wave(s, t->cap, 0, m, p->waves, j));
 			SET(on, p->peaked[j], SEL(ground, FV(1.f), SEL(hit & lt(FV(0.f), high), p->peaked[j] * high / value[j], FV(0.f))));
 		}
-	if (s->has_ground) {       /* cosine-distributed */
+	if (HAS_GROUND) {       /* cosine-distributed */
 		fv u = draw(&p->random, DRAW_COSINE);
 		SET(ground, sn, root(u));
 		SET(ground, cs, root(1.f - u));
 		SET(ground, chance, cs / PI);
 		set3(ground, &axis, vec3(FV(0.f), SEL(lt(p->ray.along.y, FV(0.f)), FV(1.f), FV(-1.f)), FV(0.f)));
 	}
-	if (s->isotropic && !s->has_ground) {    /* about any axis */
+	if (ALL_ISOTROPIC && !HAS_GROUND) {    /* about any axis */
 		fv x, y;
 		sincos_of(azimuth, &y, &x);
 		along = vec3(sn * x, sn * y, cs);

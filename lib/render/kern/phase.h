@@ -39,7 +39,7 @@ FN void interval_load(const struct scene *s, const struct tables *t, mv m, iv i,
 #ifdef WAVES
 		gather4(m, t->interval, row, 4 + 2 * j, q);    /* two wavelengths; beyond the last one, what follows */
 #else
-		for (int k = 0; k < 4; k++)
+		EACH(k, 4)
 			q[k] = gather(m, t->interval, row + (4 + k % 2) + 2 * wave_of(s, w, j + k / 2));
 #endif
 		out->p[j] = q[0];

@@ -8,17 +8,25 @@
 #define FAR 3e38f
 #define NONE (-1)
 
-/* A build for one transport, number of wavelengths, or for phase functions with or without a peak gives them as constants; here, as
- * they are in the scene. */
+/* A build for one transport, number of wavelengths, or for phase functions with or without a peak gives them as constants, one for a
+ * scene alone the rest, too; here, as they are in the scene. */
 #ifndef TRANSPORT
 #define TRANSPORT (s->transport)
 #endif
 #ifndef PEAK
 #define PEAK (s->peak > 0.f)
 #endif
+#ifndef CHANNELS
+#define CHANNELS (s->channels)
+#define SPECTRAL (s->spectral)
+#define HAS_GROUND (s->has_ground)
+#define ALL_ISOTROPIC (s->isotropic)
+#define COUNTED (s->counted)
+#define BRANCHES (s->branches > 1)
+#endif
 #ifdef WAVES
 #define CARRIED WAVES
-#define EACH_WAVE(j) for (int j = 0; j < WAVES; j++)
+#define EACH_WAVE(j) EACH(j, WAVES)
 #else
 #define CARRIED MAX_WAVES
 #define EACH_WAVE(j) for (int j = 0; j < s->carried; j++)
@@ -114,7 +122,7 @@ FN void clip_sphere(struct ray r, float radius, fv *t0, fv *t1)
 /* The medium's own shape; particles in voxels fill these, which for a sphere reach beyond it. */
 FN void clip_medium(const struct scene *s, struct ray r, fv *t0, fv *t1)
 {
-	if (s->round && !(TRANSPORT == TRANSPORT_GRID && s->counted))
+	if (s->round && !(TRANSPORT == TRANSPORT_GRID && COUNTED))
 		clip_sphere(r, s->extent[0], t0, t1);
 	else
 		clip_box(r, vec3(FV(0.f), FV(0.f), FV(0.f)), load3(s->extent), t0, t1);

@@ -81,7 +81,7 @@ FN void render_pixels(const struct scene *s, const struct tables *t, GLOBAL int6
 		fresh = work_take(s, &work, over);
 		over = NO_LANE;
 	}
-	for (int k = 0; k < 8; k++)
+	EACH(k, 8)
 		if (any(bad) || square >> 63 || PART(high, k) < 0)
 			*overflow = 1;
 }

@@ -45,7 +45,7 @@ FN void passage_begin(const struct scene *s, struct passage *g, mv m, struct ray
 	const fv inverse[3] = { r.inverse.x, r.inverse.y, r.inverse.z };
 	set3(m, &g->entry, entry);
 	set3(m, &g->along, r.along);
-	for (int a = 0; a < 3; a++) {
+	EACH(a, 3) {
 		fv place = (at[a] - s->voxel_low[a]) * s->voxels_per_m[a];
 		SET(m, g->at[a], place);
 		SET(m, g->d[a], d[a] * s->voxels_per_m[a]);
@@ -68,7 +68,7 @@ FN void passage_begin(const struct scene *s, struct passage *g, mv m, struct ray
 /* The cell as integers. */
 FN void indices(const struct passage *g, iv *i)
 {
-	for (int a = 0; a < 3; a++)
+	EACH(a, 3)
 		i[a] = to_int(g->cell[a]);
 }
 
@@ -107,15 +107,15 @@ FN void passage_on(const struct scene *s, const struct tables *t, struct passage
 	fv low[3] = { g->cell[0], g->cell[1], g->cell[2] }, many = FV(1.f), wall[3], leave[3];
 	if (any(empty)) {
 		many = SEL(empty, to_float((-2 * BRICK) * brick - BRICK), many);
-		for (int a = 0; a < 3; a++)
+		EACH(a, 3)
 			low[a] = SEL(empty, to_float((i[a] & ~(BRICK - 1)) + (brick + 1) * BRICK), low[a]);
 	}
-	for (int a = 0; a < 3; a++) {
+	EACH(a, 3) {
 		wall[a] = low[a] + g->up[a] * many;
 		leave[a] = (wall[a] - g->at[a]) * g->inverse[a];
 	}
 	fv out = least(leave[0], least(leave[1], leave[2])), span = most(FV(0.f), least(out, g->t1) - g->t);
-	if (s->counted) {
+	if (COUNTED) {
 		fv here[CARRIED], own = FV(FAR), own_here = FV(FAR);
 		iv at = (brick * BRICK_CELLS + ((i[2] & 3) * BRICK + (i[1] & 3)) * BRICK + (i[0] & 3)) * s->n_waves;
 		EACH_WAVE(j) {
@@ -146,7 +146,7 @@ FN void passage_on(const struct scene *s, const struct tables *t, struct passage
 	}
 	/* into the next cell */
 	m = g->going;
-	for (int a = 0; a < 3; a++) {
+	EACH(a, 3) {
 		mv across = le(leave[a], out);
 		if (any(empty))        /* along the other axes the ray has moved on, too */
 			SET(m & empty, g->cell[a], most(low[a], least(low[a] + (many - 1.f), whole(g->at[a] + g->d[a] * out))));
@@ -160,13 +160,13 @@ FN void passage_on(const struct scene *s, const struct tables *t, struct passage
 FN fv passage_end(const struct scene *s, const struct tables *t, struct passage *g, mv m)
 {
 	m &= g->reached;
-	if (s->counted || !any(m))
+	if (COUNTED || !any(m))
 		return g->t;
 	fv p[8], v[4], span = g->span;
 	iv i[3];
 	indices(g, i);
 	corners(t, m, brick_of(s, t, m, i), i, p);
-	for (int k = 0; k < 4; k++)    /* four values fix the cubic, which is not negative */
+	EACH(k, 4)    /* four values fix the cubic, which is not negative */
 		v[k] = most(FV(0.f), density_along(g, p, g->t + span * ((float)k * 0.333333333f)));
 	fv all = span * 0.125f * (v[0] + 3.f * (v[1] + v[2]) + v[3]);
 	fv q[5] = { v[0], -5.5f * v[0] + 9.f * v[1] - 4.5f * v[2] + v[3], 9.f * v[0] - 22.5f * v[1] + 18.f * v[2] - 4.5f * v[3],
