@@ -35,7 +35,7 @@ awk -F'\t' -v OFS='\t' '
 	END { put() }' answers.tsv >>cheapest.tsv
 cat >cheapest.txt <<'EOT'
 The method that auto takes for a sphere of the size parameter x and the refractive index n, or 1.5+ik, at four tolerances: the cheapest
-whose estimated error, the larger of those of Q_ext, Q_sca (relative) and g, is within the tolerance.
+whose estimated error, the larger of those of Q_ext, Q_sca (relative) and g, is within the tolerance, where many sizes of one index are wanted, as here (xsect(1)).
 
     xsect --tolerance T --particle M --size-parameter 0.01:1e5:180 | tabtxt --columns x,method
 

@@ -1,9 +1,10 @@
+# shellcheck shell=sh
 # Efficiencies by every method of xsect: error against time, from x = 0.01 to 1e5.
 #
-# error: the worst over 32 sizes from x to 1.1 x: the larger of the relative errors of Q_ext and Q_sca and the error of g, against
+# error: the worst over 256 sizes from x to 1.1 x: the larger of the relative errors of Q_ext and Q_sca and the error of g, against
 #        Mie's; where the two are equal, what xsect estimates for Mie's.
-# time:  CPU time of a size, the table written, in units of Mie's at x = 100 of the same m. Of this machine and this run.
-# usage, by tests/bench/run: efficiencies.sh OUT; CHART_SIZES, CHART_INDICES, CHART_METHODS and BENCH_QUICK make it shorter.
+# time:  CPU time of a size among many, the table written, in units of Mie's at x = 100 of the same m. Of this machine and this run.
+# usage, by tests/bench/run: chart-efficiencies.sh OUT; CHART_SIZES, CHART_INDICES, CHART_METHODS and BENCH_QUICK make it shorter.
 out=$1
 bench=$(cd "$(dirname "$0")" && pwd)
 # shellcheck source=tests/bench/chart
@@ -12,10 +13,10 @@ sizes=${CHART_SIZES:-0.01 0.1 1 10 100 1000 1e4 1e5}
 indices=${CHART_INDICES:-1.33 1.49 1.5+0.1i 0.75}
 methods=${CHART_METHODS:-mie,goa,cam,evans-fournier,rayleigh,auto --tolerance 1e-1,auto --tolerance 1e-2,auto --tolerance 1e-3,auto --tolerance 1e-6}
 
-# efficiencies LO HI METHOD M: q_ext, q_sca, g and the estimated error of 32 sizes
+# efficiencies LO HI METHOD M: q_ext, q_sca, g and the estimated error of 256 sizes
 efficiencies() {
 	# shellcheck disable=SC2086
-	xsect --method $3 --particle "$4" --size-parameter "$1:$2:32" 2>err | tabtxt --columns q_ext,q_sca,g,error | sed 1d
+	xsect --method $3 --particle "$4" --size-parameter "$1:$2:256" 2>err | tabtxt --columns q_ext,q_sca,g,error | sed 1d
 }
 printf '# m\tmethod\tx\terror\ttime\n' | tee efficiencies.tsv
 for m in $indices; do
@@ -41,13 +42,13 @@ for m in $indices; do
 	done
 done | tee -a efficiencies.tsv
 cat >efficiencies.txt <<'EOT'
-Error against time of xsect's methods. A point is 32 sizes from x to 1.1 x; numbers at points are powers of 10: 3 is x = 1000.
-error: worst of the relative errors of Q_ext and Q_sca and the error of g, against --method mie, whose own is its estimate.
+Error against time of xsect's methods. A point is many sizes of one index from x to 1.1 x; numbers at points are powers of 10: 3 is x = 1000.
+error: worst, of 256 sizes, of the relative errors of Q_ext and Q_sca and the error of g, against --method mie, whose own is its estimate.
 time: CPU time of a size in units of --method mie at x = 100, the least of three runs on one thread.
 
     xsect --method METHOD [--tolerance T] --particle M --size-parameter X:1.1X:N | tabtxt --columns q_ext,q_sca,g,error
 
-Made by tests/bench/efficiencies.sh (make charts).
+Made by tests/bench/chart-efficiencies.sh (make charts).
 EOT
 cat >efficiencies.gp <<'EOT'
 set datafile separator "\t"
