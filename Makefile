@@ -119,7 +119,8 @@ bench-render: programs
 # Lorenz-Mie theory beside the codes that PyPI has, and beside a textbook's loop.
 bench-mie: programs
 	sh tests/bench/mie-venv $(B)/mie-venv
-	PATH="$(CURDIR)/$(B)/bin:$$PATH" CC="$(CC)" MOTES_PEERS="$(CURDIR)/$(B)/mie-venv" sh tests/bench/run $(B)/bench $(MIE_BENCHES)
+	PATH="$(CURDIR)/$(B)/bin:$$PATH" CC="$(CC)" MOTES_ARCHIVE="$(CURDIR)/$(B)/libmotes.a" MOTES_PEERS="$(CURDIR)/$(B)/mie-venv" \
+	sh tests/bench/run $(B)/bench $(MIE_BENCHES)
 # Cross sections by the cheapest method within a tolerance.
 bench-xsect: programs $(B)/tests/ladder
 	PATH="$(CURDIR)/$(B)/bin:$$PATH" MOTES_TESTS="$(CURDIR)/$(B)/tests" sh tests/bench/run $(B)/bench $(XSECT_BENCHES)

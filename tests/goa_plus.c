@@ -178,6 +178,27 @@ static void bench(void)
 		}
 }
 
+/* Of random spheres, how many are worse than goa_plus_error says, and the worst ratio of the two. */
+static int exceeded(int n, double *worst)
+{
+	unsigned long long state = 12345;
+	int many = 0;
+	*worst = 0;
+	for (int k = 0; k < n; k++) {
+		double u[4];
+		for (int i = 0; i < 4; i++) {
+			state = state * 6364136223846793005u + 1442695040888963407u;
+			u[i] = (double)(state >> 11) * 0x1p-53;
+		}
+		double x = pow(10, 3 * u[0]);
+		double complex m = CMPLX(0.4 + 2.4 * u[1], u[2] < 0.5 ? 0 : pow(10, -5 + 5 * u[3]));
+		double ratio = compare(x, m, -1).l1 / goa_plus_error(x, m);
+		many += ratio > 1;
+		*worst = fmax(*worst, ratio);
+	}
+	return many;
+}
+
 int main(int argc, char **argv)
 {
 	static const struct { double complex m; double x, l1; } row[] = {
@@ -187,12 +208,12 @@ int main(int argc, char **argv)
 		{ 2.0, 1000.49, 1e-3 }, { 1.05, 1000.49, 1e-4 }, { 0.75 + 0.001 * I, 3000.3, 3e-4 },
 		{ 1.7 + 1 * I, 300.3, 2e-4 },
 	};
-	enum { ROWS = sizeof row / sizeof *row };
+	enum { ROWS = sizeof row / sizeof *row, RANDOM = 200 };
 	if (argc > 1 && !strcmp(argv[1], "--bench")) {
 		bench();
 		return 0;
 	}
-	plan(4 * ROWS);
+	plan(4 * ROWS + 1);
 	for (int k = 0; k < ROWS; k++) {
 		struct compared c = compare(row[k].x, row[k].m, -1);
 		double complex m = row[k].m;
@@ -201,5 +222,9 @@ int main(int argc, char **argv)
 		ok(c.decades < 1, "no angle off by a decade: %.2f at %.4f degrees", c.decades, c.at);
 		ok(fabs(c.ext) < 2e-3 && fabs(c.abs) < 5e-3, "extinction within %.1e, absorption within %.1e", c.ext, c.abs);
 	}
+	double worst;
+	int many = exceeded(RANDOM, &worst);
+	ok(100 * many <= RANDOM && worst < 10,
+	   "of %d random spheres %d are worse than estimated, %.2f times that at most", RANDOM, many, worst);
 	return 0;
 }

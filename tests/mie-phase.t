@@ -2,7 +2,7 @@
 # mie-phase: all angles at once against the direct sum, the angles it chooses, and what it refuses.
 # shellcheck source=tests/lib.sh
 . "$(dirname "$0")/lib.sh"
-plan 28
+plan 41
 cd "$tmp" || exit 2
 
 # apart A B: the largest difference of amplitudes, in units of the largest amplitude in A.
@@ -114,6 +114,52 @@ for n in 1 3; do mie-phase --particle 1.33 --wavelength 450nm,650nm --average --
 is "$(cat threads.1)" "$(cat threads.3)" 'the mean: the same bytes with 1 and 3 threads'
 for n in 1 3; do mie-phase --particle 1.33 --wavelength 450nm,650nm --threads $n sizes.psd | cksum >threads.$n; done
 is "$(cat threads.1)" "$(cat threads.3)" 'and size by size'
+
+# Classes with limits are integrated: as by many classes that stand for themselves, not as by their own radii.
+average() { mie-phase --particle water --wavelength 550nm --average "$@"; }
+for d in 'lognormal --median 5um --gsd 1.2' 'gamma --effective-radius 6um --effective-variance 0.1'; do
+	# shellcheck disable=SC2086
+	{
+		psd $d -o coarse.psd
+		psd $d --classes 3001 | tabtxt --columns radius,weight | txttab -o many.psd
+	}
+	tabtxt --columns radius,weight coarse.psd | txttab -o radii.psd
+	average --angles 8001 many.psd -o fine.tab
+	for t in 1e-2 1e-3; do
+		average --tolerance $t coarse.psd -o mean.tab
+		e=$(error mean.tab fine.tab)
+		within "$e" $t
+		ok $? "$d: the mean within $t ($e)"
+	done
+	average radii.psd -o mean.tab
+	e=$(error mean.tab fine.tab)
+	within 0.01 "$e"
+	ok $? "which 16 radii are not ($e)"
+	average --angles 181 coarse.psd | tabtxt --columns p | sed -n 92p >a
+	average --theta 90 coarse.psd | tabtxt --columns p | sed -n 2p >b
+	is "$(cat a)" "$(cat b)" 'p does not depend on the other angles'
+done
+tabtxt coarse.psd >text
+{ sed -n 1p text; sed 1d text | sort -r; } | txttab | average --verbose -o turned.tab 2>err
+average -o straight.tab coarse.psd
+tabcmp --rel 1e-9 straight.tab turned.tab >diff.txt 2>&1
+ok $? 'the order of classes does not matter'
+is 1 "$(grep -c '^mie-phase: verbose: mean over [0-9]* sizes; half as many change it by [0-9.e-]*$' err)" '--verbose says how many sizes it took'
+for n in 16 801; do
+	psd lognormal --median 5um --gsd 1.2 --classes $n | tabtxt >text
+	case $n in 801) cut -f1,2 text ;; *) cat text ;; esac | txttab |
+		mie-phase --particle 1.5 --host 1.33+0.01i --wavelength 550nm --average --angles 3601 -o host.$n
+done
+e=$(error host.16 host.801)
+within "$e" 1e-3
+ok $? "in a host that absorbs as well ($e)"
+psd mono --radius 5um | average -o one.tab
+mie-phase --particle water --wavelength 550nm --radius 5um --tolerance 5e-4 -o single.tab
+e=$(error one.tab single.tab)
+within "$e" 1e-3
+ok $? "a class without width is one size ($e)"
+printf '# radius:f64:um\tweight:f64:1\tradius_lo:f64:um\tradius_hi:f64:um\n5\t1\t5.5\t6\n' | txttab -o bad.tab
+refused 'a radius outside its class' 'bad.tab: radius 5 um does not lie between' average bad.tab
 
 # medium-bake takes what comes.
 xsect --particle 1.33 --wavelength 450nm,650nm sizes.psd -o sizes.xsect

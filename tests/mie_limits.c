@@ -128,6 +128,7 @@ static void everywhere(void)
 	static double all_x[n], alone[n], together[n];
 	static double complex all_m[n];
 	static struct efficiencies q_alone[n], q_together[n];
+	double streamed = 0;
 	int bad = 0;
 	for (int i = 0; i < n; i++) {
 		double x = pow(10, -8 + 12 * uniform());
@@ -154,10 +155,13 @@ static void everywhere(void)
 		drop(&w);
 		all_x[i] = x;
 		all_m[i] = CMPLX(re, im);
-		q_alone[i] = q;
-		alone[i] = error;
+		if (mie_many(1, &x, &all_m[i], &q_alone[i], &alone[i]))
+			exit(2);
+		double d = fmax(relative(q.ext, q_alone[i].ext), fabs(q.g - q_alone[i].g));
+		streamed = fmax(streamed, d / (cabs(all_m[i] - 1) < 1e-3 ? 1e-12 : 1e-13));
 	}
 	ok(!bad, "%d random spheres: %d not finite or not physical", n, bad);
+	ok(streamed <= 1, "each from its coefficients as by itself within 1e-13, 1e-12 for m near 1 (%.2g of that)", streamed);
 	bad = mie_many(n, all_x, all_m, q_together, together);
 	ok(!bad && !memcmp(q_alone, q_together, sizeof q_alone) && !memcmp(alone, together, sizeof alone), "all at once they are the same to the last bit");
 }
@@ -184,7 +188,7 @@ static void grids(void)
 
 int main(void)
 {
-	plan(14);
+	plan(15);
 	conservation();
 	normalisation();
 	axes();

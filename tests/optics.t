@@ -42,14 +42,14 @@ golden mie-coeffs.txt out
 is '# x:f64:1	host_re:f64:1	host_im:f64:1	n:i32:1	a_re:f64:1	a_im:f64:1	b_re:f64:1	b_im:f64:1' \
 	"$(mie-coeffs --particle 1.33 --size-parameter 1 | tabtxt | head -1)" 'mie-coeffs by size parameter'
 
-# Coefficients streamed give what is computed at once; carried columns travel.
+# Coefficients streamed give what is computed at once, but for rounding (c_abs, a difference, to that of c_ext); carried columns travel.
 for m in 1.33 1.33+1e-8i 1.5+0.1i; do
 	options="--particle $m --wavelength 450nm,550nm,650nm"
 	# shellcheck disable=SC2086
 	{
 		xsect --method mie $options psd.tab >direct.tab
 		mie-coeffs $options psd.tab | xsect >streamed.tab
-		tabcmp --rel 1e-12 direct.tab streamed.tab >diff.txt 2>&1
+		tabcmp --rel 1e-12 --abs 1e-11 direct.tab streamed.tab >diff.txt 2>&1
 		is '0 49' "$? $(tabtxt streamed.tab | wc -l)" "mie-coeffs | xsect, $m"
 		mie-phase $options --angles 37 psd.tab >direct.tab
 		mie-coeffs $options psd.tab | mie-phase --angles 37 >streamed.tab
@@ -63,7 +63,8 @@ done
 	mie-coeffs $water psd.tab | mie-phase >streamed.tab
 	tabcmp direct.tab streamed.tab >diff.txt 2>&1
 	ok $? 'on the default grid, too'
-	mie-phase $water --average psd.tab >direct.tab
+	tabtxt --columns radius,weight psd.tab | txttab -o plain.tab    # coefficients say nothing of sizes within a class
+	mie-phase $water --average plain.tab >direct.tab
 	mie-coeffs $water psd.tab | mie-phase --average >streamed.tab
 	tabcmp direct.tab streamed.tab >diff.txt 2>&1
 	ok $? 'and averaged'
@@ -72,7 +73,7 @@ done
 }
 xsect --method mie --particle 1.5 --size-parameter 1,10 >direct.tab
 mie-coeffs --particle 1.5 --size-parameter 1,10 | xsect >streamed.tab
-tabcmp direct.tab streamed.tab >diff.txt 2>&1
+tabcmp --rel 1e-14 direct.tab streamed.tab >diff.txt 2>&1
 ok $? 'and by size parameter'
 is 1 "$(tabtxt --columns q_ext,q_sca streamed.tab | awk 'NR > 1 { print $1 == $2 }' | uniq)" 'no absorption: c_sca is c_ext to the last bit'
 

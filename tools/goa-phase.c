@@ -112,13 +112,16 @@ static void forget(void)
 int main(int argc, char **argv)
 {
 	struct sizes_options sizes = SIZES_INIT;
-	struct phase_options angles = { 0 };
+	struct phase_options angles = { .tolerance = 1e-3 };
 	struct model model = { GOA, 3 };
 	const char *output = NULL;
 	long long order = -1;
 	const struct opt opts[] = {
 		SIZES_OPTIONS(sizes),
 		PHASE_OPTIONS(angles),
+		{ "--tolerance", OPT_REAL, &angles.tolerance, 1e-6, 0.1, "T",
+		  "error allowed to the p of a mean over sizes: half the integral of |dp|", 0 },
+		{ "--verbose", OPT_FLAG, &angles.verbose, 0, 0, NULL, "say how many sizes a mean took", 1 },
 		{ "--order", OPT_INT, &order, 0, GOA_ORDER_MAX, "P",
 		  "highest order of rays, the number of chords inside the sphere: 3", 0 },
 		{ "--model", OPT_CHOICE, &model.which, 0, 0, "goa|goa+|incoherent",

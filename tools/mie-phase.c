@@ -86,6 +86,7 @@ int main(int argc, char **argv)
 		SIZES_OPTIONS(sizes),
 		PHASE_OPTIONS(phase),
 		{ "--tolerance", OPT_REAL, &tolerance, 1e-6, 0.1, "T", "error allowed to p: half the integral of |dp|", 0 },
+		{ "--verbose", OPT_FLAG, &phase.verbose, 0, 0, NULL, "say how many sizes a mean took", 1 },
 		{ "--direct", OPT_FLAG, &request.direct, 0, 0, NULL, "sum angle by angle, even where a transform is faster", 0 },
 		OPT_OUTPUT(&output),
 		OPT_END

@@ -428,7 +428,7 @@ void tab_put(struct tab_out *t, const double *row)
 		float f;
 		switch (t->cols[i].type) {
 		case TAB_I32:
-			if (!(row[i] >= INT32_MIN && row[i] <= INT32_MAX) || row[i] != floor(row[i]))
+			if (!(row[i] >= INT32_MIN && row[i] <= INT32_MAX) || row[i] != (int32_t)row[i])
 				die(t->cols[i].name, "%g does not fit an i32 column", row[i]);
 			put32(p, (uint32_t)(int32_t)row[i]);
 			break;

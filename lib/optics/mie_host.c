@@ -115,25 +115,22 @@ static double share(double complex x)
 
 struct efficiencies mie_host_efficiencies(double complex x, int n, const double complex *a, const double complex *b, double *error)
 {
-	struct solved q = { { 0 }, { 0 }, { 0 }, { 0 }, { 0 } };
-	struct spheres s = { .absorb = 1 };
-	double old_a[2] = { 0, 0 }, old_b[2] = { 0, 0 }, ext_im = 0, bulk_re = 0, bulk_im = 0, x2 = norm2(x), of_x = share(x);
+	struct mie_sums q;
+	double ext_im = 0, bulk_re = 0, bulk_im = 0, x2 = norm2(x), of_x = share(x);
+	mie_sums_of(0, n, a, b, &q);
 	for (int l = 1; l <= n; l++) {
-		double al[2] = { creal(a[l]), cimag(a[l]) }, bl[2] = { creal(b[l]), cimag(b[l]) };
-		solved_add(&q, &s, l, 0, al, bl, old_a, old_b);
-		ext_im += (2.0 * l + 1) * (al[1] + bl[1]);
-		bulk_re += (2.0 * l + 1) * (fabs(al[0]) + fabs(bl[0]));
-		bulk_im += (2.0 * l + 1) * (fabs(al[1]) + fabs(bl[1]));
-		memcpy(old_a, al, sizeof al);
-		memcpy(old_b, bl, sizeof bl);
+		double w = 2.0 * l + 1;
+		ext_im += w * (cimag(a[l]) + cimag(b[l]));
+		bulk_re += w * (fabs(creal(a[l])) + fabs(creal(b[l])));
+		bulk_im += w * (fabs(cimag(a[l])) + fabs(cimag(b[l])));
 	}
 	/* Re[S / x^2] = Re[S conj(x^2)] / |x|^4, S = 2 S(0) */
-	double re = (creal(x) - cimag(x)) * (creal(x) + cimag(x)), im = 2 * creal(x) * cimag(x), ext = q.ext[0] * re + ext_im * im;
+	double re = (creal(x) - cimag(x)) * (creal(x) + cimag(x)), im = 2 * creal(x) * cimag(x), ext = q.ext * re + ext_im * im;
 	struct efficiencies out = {
 		.ext = 2 / (x2 * x2) * ext,
-		.sca = 2 / x2 * of_x * q.sca[0],
-		.g = 2 * q.asym[0] / q.sca[0],
-		.back = of_x / x2 * (q.back_re[0] * q.back_re[0] + q.back_im[0] * q.back_im[0]),
+		.sca = 2 / x2 * of_x * q.sca,
+		.g = 2 * q.asym / q.sca,
+		.back = of_x / x2 * (q.back_re * q.back_re + q.back_im * q.back_im),
 	};
 	out.abs = out.ext - out.sca;
 	if (error) {

@@ -6,31 +6,83 @@
 
 #include <string.h>
 
-/* ------------------------------------------------------------------ many spheres */
+/* ------------------------------------------------------------------ sums */
 
-/* Orders [from, to] of all spheres. */
-INLINE void orders(struct climb *k, struct solved *q, vec old[2][UNROLL][2], const struct spheres *s,
-                                                         const struct ratios *e, int from, int to, int outside)
+/* Coefficients stand in the sums with the factor w = 2l+1. l, w, (l-1)(l+1)/l over w and the w before, (2l+1)/(l(l+1)) over w^2. */
+enum { L, W, NEXT, CROSS, WEIGHTS };
+
+INLINE void weights(double first, vec w[WEIGHTS])
 {
-	for (int l = from; l <= to; l++) {
-		climb_to(k, s, e, l, outside);
-		EACH(u) {
-			vec a[2], b[2];
-			climb_waves(k, s, e, l, u, outside, a, b);
-			solved_add(q, s, l, u, a, b, old[0][u], old[1][u]);
-			for (int c = 0; c < 2; c++) {
-				old[0][u][c] = a[c];
-				old[1][u][c] = b[c];
-			}
-		}
-	}
+	for (int i = 0; i < LANES; i++)
+		LANE(&w[L], i) = first + i;
+	vec l = w[L];
+	w[W] = 2.0 * l + 1.0;
+	w[NEXT] = (l - 1.0) * (l + 1.0) / (l * w[W] * (w[W] - 2.0));
+	w[CROSS] = 1.0 / (l * (l + 1.0) * w[W]);
 }
 
-INLINE void sums(struct mie_block *b, int first, int absorb, int near)
+enum { EXT, SCA, ASYM, BACK_RE, BACK_IM, SUMS };
+
+/* What an order adds, but for scattering; old: the order before. */
+INLINE void addends(const vec w[WEIGHTS], const vec *a, const vec *b, const vec *old_a, const vec *old_b, vec t[SUMS])
+{
+	t[EXT] = a[0] + b[0];
+	t[ASYM] = w[NEXT] * (old_a[0] * a[0] + old_a[1] * a[1] + old_b[0] * b[0] + old_b[1] * b[1]) + w[CROSS] * (a[0] * b[0] + a[1] * b[1]);
+	t[BACK_RE] = a[0] - b[0];
+	t[BACK_IM] = a[1] - b[1];
+}
+
+/* ------------------------------------------------------------------ many spheres */
+
+/* Orders [from, to] of a vector of spheres. */
+struct many {
+	struct glass g;
+	struct climb k;
+	vec sum[SUMS], old_a[2], old_b[2];
+};
+
+INLINE void orders(struct many *many, const struct ratios *e, int u, const double *const w[WEIGHTS], int absorb, int near, int from, int to,
+                   int from_x, int from_y)
+{
+	const int with_p = !absorb && !near;
+	struct many m = *many;
+	for (int l = from; l <= to; l++) {
+		int i = l * UNROLL + u;
+		struct fallen f;
+		vec a[2], b[2], t[SUMS], weight[WEIGHTS];
+		for (int j = 0; j < WEIGHTS; j++)
+			weight[j] = each(w[j][l]);
+		if (near || from_x)
+			f.ex = e->x[i];
+		if (near || from_y)
+			f.er = e->y_re[i];
+		if (absorb && (near || from_y))
+			f.ei = e->y_im[i];
+		if (absorb && !near) {
+			f.size = e->p.size[i];
+			f.re = e->p.re[i];
+			f.im = e->p.im[i];
+		}
+		climb_to(&m.k, &m.g, with_p, w[L][l], w[W][l - 1], from_x, from_x ? e->x[i - UNROLL] : each(0));
+		waves_of(absorb, near, from_x, from_y, &m.g, weight[L], weight[W], &m.k, &f, a, b, &t[SCA]);
+		addends(weight, a, b, m.old_a, m.old_b, t);
+		m.sum[EXT] += t[EXT];
+		m.sum[ASYM] += t[ASYM];
+		m.sum[BACK_RE] = t[BACK_RE] - m.sum[BACK_RE];
+		m.sum[BACK_IM] = t[BACK_IM] - m.sum[BACK_IM];
+		if (absorb)
+			m.sum[SCA] += t[SCA];
+		for (int c = 0; c < 2; c++) {
+			m.old_a[c] = a[c];
+			m.old_b[c] = b[c];
+		}
+	}
+	*many = m;
+}
+
+INLINE void spheres(struct mie_block *b, int first, const double *const w[WEIGHTS], int absorb, int near)
 {
 	struct spheres s = { .most = 0, .absorb = absorb, .near = near };
-	struct solved q;
-	vec old[2][UNROLL][2];
 	for (int i = 0; i < WIDTH; i++) {
 		LANE(s.x, i) = b->x[first + i];
 		LANE(s.m_re, i) = b->m_re[first + i];
@@ -38,29 +90,152 @@ INLINE void sums(struct mie_block *b, int first, int absorb, int near)
 		LANE(s.terms, i) = b->terms[first + i];
 		s.most = b->terms[first + i] > s.most ? b->terms[first + i] : s.most;
 	}
-	EACH(u) {
-		q.ext[u] = q.sca[u] = q.asym[u] = q.back_re[u] = q.back_im[u] = each(0);
-		for (int c = 0; c < 2; c++)
-			old[0][u][c] = old[1][u][c] = each(0);
+	struct ratios e = ratios_of(&s, (vec *)b->room, NULL);
+	for (int u = 0; u < UNROLL; u++) {
+		struct many m = { .g = glass_of(absorb, s.x[u], s.m_re[u], s.m_im[u], e.beyond[u], s.terms[u]) };
+		m.k = climb_start(&m.g, !absorb && !near);
+		int x = e.from_x, y = near ? s.most + 1 : e.from_y, low = x < y ? x : y, high = x < y ? y : x;
+		orders(&m, &e, u, w, absorb, near, 1, low - 1, 0, 0);
+		if (x < y)
+			orders(&m, &e, u, w, absorb, near, low, high - 1, 1, 0);
+		else if (!near)
+			orders(&m, &e, u, w, absorb, near, low, high - 1, 0, 1);
+		if (!near)
+			orders(&m, &e, u, w, absorb, near, high, s.most, 1, 1);
+		for (int i = 0; i < LANES; i++) {
+			vec *q = m.sum;
+			b->sums[first + u * LANES + i] = (struct mie_sums){ LANE(&q[EXT], i), LANE(&q[SCA], i), LANE(&q[ASYM], i), LANE(&q[BACK_RE], i),
+				LANE(&q[BACK_IM], i) };
+		}
 	}
-	struct ratios e = ratios_of(&s, (vec *)b->ratios);
-	struct climb k = climb_start(&s);
-	int inside = e.outside - 1 < s.most ? e.outside - 1 : s.most;
-	orders(&k, &q, old, &s, &e, 1, inside, 0);
-	orders(&k, &q, old, &s, &e, inside + 1, s.most, 1);
-	for (int i = 0; i < WIDTH; i++)
-		b->sums[first + i] = (struct mie_sums){ LANE(q.ext, i), LANE(q.sca, i), LANE(q.asym, i), LANE(q.back_re, i), LANE(q.back_im, i) };
 }
 
 static void block(struct mie_block *b)
 {
+	double *w[WEIGHTS];
+	int most = 0;
+	for (int i = 0; i < MIE_BLOCK; i++)
+		most = b->terms[i] > most ? b->terms[i] : most;
+	for (int j = 0; j < WEIGHTS; j++)
+		w[j] = b->room + (6 * MIE_BLOCK + j) * ((size_t)most + 16);
+	for (int l = 0; l <= most; l += LANES) {
+		vec v[WEIGHTS];
+		weights(l, v);
+		for (int j = 0; j < WEIGHTS; j++)
+			memcpy(w[j] + l, &v[j], sizeof(vec));
+	}
+	const double *const read[WEIGHTS] = { w[0], w[1], w[2], w[3] };
 	for (int first = 0; first < MIE_BLOCK; first += WIDTH)
-		if (b->near)
-			sums(b, first, b->absorbs, 1);
+		if (b->near && b->absorbs)
+			spheres(b, first, read, 1, 1);
+		else if (b->near)
+			spheres(b, first, read, 0, 1);
 		else if (b->absorbs)
-			sums(b, first, 1, 0);
+			spheres(b, first, read, 1, 0);
 		else
-			sums(b, first, 0, 0);
+			spheres(b, first, read, 0, 0);
+}
+
+/* ------------------------------------------------------------------ one sphere */
+
+INLINE vec load(const double *p)
+{
+	vec v;
+	memcpy(&v, p, sizeof v);
+	return v;
+}
+
+INLINE void store(double *p, vec v) { memcpy(p, &v, sizeof v); }
+
+INLINE void row(const struct mie_row *r, int absorb, int near, int from_x, int from_y)
+{
+	struct glass g = glass_of(absorb, each(r->x), each(r->m_re), each(r->m_im), each(r->beyond), each(INFINITY));
+	const int weighted = r->weighted;
+	for (int i = 0; i < r->count; i += LANES) {
+		struct climb k = { .psi_old = load(r->psi + i), .psi = load(r->psi + i + 1), .chi_old = load(r->chi + i), .chi = load(r->chi + i + 1) };
+		struct fallen f;
+		vec a[2], b[2], sca, w[WEIGHTS];
+		weights(r->first + i, w);
+		if (!absorb && !near) {
+			k.p_old = load(r->p + i);
+			k.p = load(r->p + i + 1);
+			k.below = k.p_old * g.inv_re;
+		}
+		if (near || from_x)
+			f.ex = load(r->ex + i);
+		if (near || from_y)
+			f.er = load(r->er + i);
+		if (absorb && (near || from_y))
+			f.ei = load(r->ei + i);
+		if (absorb && !near) {
+			f.size = load(r->size + i);
+			f.re = load(r->re + i);
+			f.im = load(r->im + i);
+		}
+		waves_of(absorb, near, from_x, from_y, &g, w[L], weighted ? w[W] : each(1), &k, &f, a, b, &sca);
+		store(r->a_re + i, a[0]);
+		store(r->a_im + i, a[1]);
+		store(r->b_re + i, b[0]);
+		store(r->b_im + i, b[1]);
+		if (absorb)
+			store(r->sca + i, sca);
+	}
+}
+
+INLINE void row_of(const struct mie_row *r, int absorb, int near)
+{
+	int last = r->first + r->count - 1, from_x = r->x <= last, from_y = !near && r->beyond <= last;
+	if (from_x && from_y)
+		row(r, absorb, near, 1, 1);
+	else if (from_x)
+		row(r, absorb, near, 1, 0);
+	else if (from_y)
+		row(r, absorb, near, 0, 1);
+	else
+		row(r, absorb, near, 0, 0);
+}
+
+static void waves_of_one(const struct mie_row *r)
+{
+	if (r->near && r->absorbs)
+		row_of(r, 1, 1);
+	else if (r->near)
+		row_of(r, 0, 1);
+	else if (r->absorbs)
+		row_of(r, 1, 0);
+	else
+		row_of(r, 0, 0);
+}
+
+/* One order after the other, as in a block. */
+INLINE struct mie_sums sum(int count, double (*t)[MIE_CHUNK + MIE_SPARE], const double *sca, struct mie_sums s)
+{
+	for (int i = 0; i < count; i++) {
+		s.ext += t[EXT][i];
+		s.asym += t[ASYM][i];
+		s.back_re = t[BACK_RE][i] - s.back_re;
+		s.back_im = t[BACK_IM][i] - s.back_im;
+		if (sca)
+			s.sca += sca[i];
+	}
+	return s;
+}
+
+static void sums_of_one(const struct mie_row *r, struct mie_sums *sums)
+{
+	double t[SUMS][MIE_CHUNK + MIE_SPARE];
+	for (int i = 0; i < r->count; i += LANES) {
+		const vec old_a[2] = { load(r->a_re + i - 1), load(r->a_im + i - 1) }, old_b[2] = { load(r->b_re + i - 1), load(r->b_im + i - 1) };
+		const vec a[2] = { load(r->a_re + i), load(r->a_im + i) }, b[2] = { load(r->b_re + i), load(r->b_im + i) };
+		vec w[WEIGHTS], own[SUMS];
+		weights(r->first + i, w);
+		addends(w, a, b, old_a, old_b, own);
+		store(&t[EXT][i], own[EXT]);
+		store(&t[ASYM][i], own[ASYM]);
+		store(&t[BACK_RE][i], own[BACK_RE]);
+		store(&t[BACK_IM][i], own[BACK_IM]);
+	}
+	*sums = r->absorbs ? sum(r->count, t, r->sca, *sums) : sum(r->count, t, NULL, *sums);
 }
 
 /* ------------------------------------------------------------------ many angles */
@@ -68,7 +243,7 @@ static void block(struct mie_block *b)
 /* pi_l is carried with the difference v_l = pi_l - pi_{l-1} (after Wiscombe 1979, with mu = 1 - c put in), so that c counts with all its
  * digits: v_{l+1} = ((l+1) v_l - (2l+1) c pi_l)/l, (pi_l + tau_l)/l = (l+1)/l v_l - c pi_l. Of unroll vectors of angles, sums from k[l][0]
  * on, and twice as many from there if both. */
-INLINE void waves(int both, int unroll, int n, const struct mie_factors *restrict k, int side, const double *c_, double (*out)[MIE_ANGLES])
+INLINE void sum_waves(int both, int unroll, int n, const struct mie_factors *restrict k, int side, const double *c_, double (*out)[MIE_ANGLES])
 {
 	vec c[UNROLL], p[UNROLL], v[UNROLL], sum[UNROLL][8];
 	for (int u = 0; u < unroll; u++) {
@@ -108,12 +283,12 @@ static void angles(int n, const struct mie_factors *k, int sides, const double *
 	int both = sides == MIE_PAIR, width = LANES * (both ? UNROLL / 2 : UNROLL);
 	for (int first = 0; first < MIE_ANGLES; first += width) {
 		if (both)
-			waves(1, UNROLL / 2, n, k, 0, c + first, part);
+			sum_waves(1, UNROLL / 2, n, k, 0, c + first, part);
 		else
-			waves(0, UNROLL, n, k, sides == MIE_BEHIND, c + first, part);
+			sum_waves(0, UNROLL, n, k, sides == MIE_BEHIND, c + first, part);
 		for (int j = 0; j < (both ? 8 : 4); j++)
 			memcpy(out[j] + first, part[j], (size_t)width * sizeof(double));
 	}
 }
 
-const struct mie_lanes BUILD = { block, angles };
+const struct mie_lanes BUILD = { block, waves_of_one, sums_of_one, angles };

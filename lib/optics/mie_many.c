@@ -18,23 +18,12 @@ static int by_cost(const void *a, const void *b)
 	return p->terms != q->terms ? (p->terms > q->terms ? 1 : -1) : p->at - q->at;
 }
 
-/* A sphere of too many terms for a block. */
-static int alone(double x, double complex m, int n, struct efficiencies *q, double *error)
-{
-	double complex *a = malloc(2 * ((size_t)n + 1) * sizeof *a);
-	int lossless = cimag(m) == 0, bad = !a || mie_coefficients(x, m, n, a, a + n + 1);
-	if (!bad)
-		*q = mie_efficiencies(x, lossless, n, a, a + n + 1, error);
-	free(a);
-	return bad;
-}
-
 static int together(const struct mie_lanes *lanes, const struct item *item, int n, const double *x, const double complex *m, struct efficiencies *q,
                     double *error)
 {
 	struct mie_block b = { .absorbs = item->kind & ABSORBS, .near = item->kind & NEAR };
-	b.ratios = aligned_alloc(64, mie_block_room(item[n - 1].terms) * sizeof *b.ratios);
-	if (!b.ratios)
+	b.room = aligned_alloc(64, mie_block_room(item[n - 1].terms) * sizeof *b.room);
+	if (!b.room)
 		return 1;
 	for (int i = 0; i < MIE_BLOCK; i++) {    /* the last one again where there are fewer */
 		const struct item *own = &item[i < n ? i : n - 1];
@@ -49,14 +38,16 @@ static int together(const struct mie_lanes *lanes, const struct item *item, int 
 		q[at] = mie_of_sums(x[at], !b.absorbs, &b.sums[i]);
 		error[at] = mie_error_of_sums(x[at], !b.absorbs, &b.sums[i]);
 	}
-	free(b.ratios);
+	free(b.room);
 	return 0;
 }
 
 int mie_many(int n, const double *x, const double complex *m, struct efficiencies *q, double *error)
 {
-	struct item *item = malloc(((size_t)n + 1) * sizeof *item);
 	const struct mie_lanes *lanes = mie_lanes();
+	if (n == 1)
+		return mie_alone(lanes, *x, *m, mie_terms(*x, *m), q, error);
+	struct item *item = malloc(((size_t)n + 1) * sizeof *item);
 	if (!item)
 		return -1;
 	int sorted = 1, bad = 0;
@@ -79,7 +70,7 @@ int mie_many(int n, const double *x, const double complex *m, struct efficiencie
 				first = last;
 			} else {
 				int at = item[first].at;
-				bad |= alone(x[at], m[at], item[first].terms, &q[at], &error[at]);
+				bad |= mie_alone(lanes, x[at], m[at], item[first].terms, &q[at], &error[at]);
 				first++;
 			}
 		}

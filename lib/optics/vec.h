@@ -4,6 +4,7 @@
 #define OPTICS_VEC_H
 
 #include <stdint.h>
+#include <string.h>
 
 #define WIDTH (LANES * UNROLL)
 #define EACH(u) for (int u = 0; u < UNROLL; u++)
@@ -22,6 +23,19 @@ typedef int64_t truths __attribute__((vector_size(8 * LANES)));
 #endif
 
 INLINE vec each(double a) { return a - (vec){ 0 }; }
+INLINE truths bits_of(vec a)
+{
+	truths t;
+	memcpy(&t, &a, sizeof t);
+	return t;
+}
+INLINE vec of_bits(truths t)
+{
+	vec a;
+	memcpy(&a, &t, sizeof a);
+	return a;
+}
+INLINE vec size_of(vec a) { return of_bits(bits_of(a) & INT64_MAX); }
 INLINE vec larger(vec a, vec b) { return PICK((a > b), a, b); }
 INLINE vec not_zero(vec a) { return PICK(a == 0, each(1e-290), a); }
 

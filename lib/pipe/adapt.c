@@ -7,6 +7,14 @@
 
 #define BLOCK 4096      /* angles whose amplitudes are held at a time */
 
+void adapt_power(double norm, long n, const double complex *s1, const double complex *s2, double *p)
+{
+	for (long i = 0; i < n; i++) {
+		double re1 = creal(s1[i]), im1 = cimag(s1[i]), re2 = creal(s2[i]), im2 = cimag(s2[i]);
+		p[i] = (re1 * re1 + im1 * im1 + re2 * re2 + im2 * im2) / (2 * norm);
+	}
+}
+
 int adapt_p(const struct phase_profile *profile, const struct phase_state *s, long n, const double *theta, double *p)
 {
 	double complex *s1 = malloc(2 * BLOCK * sizeof *s1), *s2 = s1 + BLOCK;
@@ -14,10 +22,8 @@ int adapt_p(const struct phase_profile *profile, const struct phase_state *s, lo
 	for (long from = 0; !failed && from < n; from += BLOCK) {
 		int count = n - from < BLOCK ? (int)(n - from) : BLOCK;
 		failed = profile->at(s, count, theta + from, s1, s2);
-		for (int i = 0; !failed && i < count; i++) {
-			double re1 = creal(s1[i]), im1 = cimag(s1[i]), re2 = creal(s2[i]), im2 = cimag(s2[i]);
-			p[from + i] = (re1 * re1 + im1 * im1 + re2 * re2 + im2 * im2) / (2 * s->norm);
-		}
+		if (!failed)
+			adapt_power(s->norm, count, s1, s2, p + from);
 	}
 	free(s1);
 	return failed ? -1 : 0;

@@ -32,6 +32,9 @@ struct adapted {
 /* adapt - open w[nwaves] and find their angles; the error of each p in L1 is at most tolerance. 0, or -1 when memory ran out. */
 int adapt(const struct phase_profile *profile, const void *context, double tolerance, struct adapted *a);
 
+/* adapt_power - p[n] from amplitudes. */
+void adapt_power(double norm, long n, const double complex *s1, const double complex *s2, double *p);
+
 /* adapt_p - phase function at theta[n]; 0, or -1 when memory ran out. */
 int adapt_p(const struct phase_profile *profile, const struct phase_state *s, long n, const double *theta, double *p);
 

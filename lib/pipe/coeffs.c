@@ -211,7 +211,7 @@ static int next_read(struct coeffs *c, struct waves *w, double *carried)
 
 int coeffs_next(struct coeffs *c, struct waves *out)
 {
-	double *carried = xalloc((size_t)c->ncarried, sizeof *carried);
+	double *carried = c->ncarried ? xalloc((size_t)c->ncarried, sizeof *carried) : NULL;
 	*out = (struct waves){ 0 };
 	if (!c->sizes ? !next_read(c, out, carried) : !sizes_next(c->sizes, &out->size)) {
 		free(carried);

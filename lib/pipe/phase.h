@@ -10,7 +10,8 @@ struct phase_options {
 	long long angles;        /* 0: the default grid */
 	int average;
 	const struct phase_profile *profile;    /* of the model: the default grid then follows p. NULL: it depends on x alone */
-	double tolerance;                       /* in L1 of p, taken as linear between the angles of that grid */
+	double tolerance;                       /* in L1 of p, taken as linear between the angles of that grid; and of means over sizes */
+	int verbose;
 };
 
 /* Rows for the option table. */

@@ -9,8 +9,9 @@
 #                  mie-phase is timed without the one size's start. ratio: to the textbook's.
 # mie_series.tsv   mie-phase with all angles at once against --direct
 #
-# Prints the tables and lines PASS or FAIL, and draws mie.png and .svg.
-# usage, by tests/bench/run: [MOTES_PEERS=VENV] [MOTES_CPU=..] [BENCH_QUICK=1] mie.sh OUT
+# Prints the tables and lines PASS or FAIL: the requirements by AVX-512, half of them by AVX2 (or by MOTES_CPU alone), and draws mie.png and
+# .svg.
+# usage, by tests/bench/run: [MOTES_PEERS=VENV] [MOTES_ARCHIVE=libmotes.a] [MOTES_CPU=..] [BENCH_QUICK=1] mie.sh OUT
 out=$1
 bench=$(cd "$(dirname "$0")" && pwd)
 . "$bench/timing"
@@ -149,19 +150,45 @@ need() {
 		exit !ok }' || failed=1
 }
 ratio() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.3g\n", a / b }'; }
-case ${MOTES_CPU:-$(grep -q avx512dq /proc/cpuinfo && echo v4)} in v4) half=1 ;; *) half=2 ;; esac
+# levels: what to time, of what this processor has; half: what of the requirements holds there
+levels=${MOTES_CPU:-$(grep -q avx512dq /proc/cpuinfo && echo v4; grep -q avx2 /proc/cpuinfo && echo v3)}
+half() { case $1 in v4) echo 1 ;; *) echo 2 ;; esac; }
+half=$(half "${levels%%[!v0-9]*}")
 sizes=200000
 [ -z "${BENCH_QUICK:-}" ] || sizes=20000
+t=$(awk -v n=1000 'BEGIN { for (i = 0; i < n; i++) { x = 0.1 * 10000^(i / (n - 1)); s += int(x + 4.05 * x^(1 / 3) + 8) } print s / n }')
 for m in '1.33 0 15' '1.5 0.1 10'; do
 	re=$(echo "$m" | cut -d' ' -f1) im=$(echo "$m" | cut -d' ' -f2) limit=$(echo "$m" | cut -d' ' -f3)
-	t=$(awk -v n=1000 'BEGIN { for (i = 0; i < n; i++) { x = 0.1 * 10000^(i / (n - 1)); s += int(x + 4.05 * x^(1 / 3) + 8) } print s / n }')
 	book=$(for _ in 1 2 3; do ./textbook "$re" "$im" 0.1 1000 $((sizes / 4)) 2>err; done | least)
-	own=$(per "$(tool 0.1 1000 "$sizes" xsect --method mie --particle "$re+${im}i")" 1 "$t")
-	need "xsect, m = $re+${im}i, 0.1:1000:$sizes, a term" "$(ratio "$book" "$own")" "$(ratio "$limit" $half)"
+	for level in $levels; do
+		own=$(per "$(MOTES_CPU=$level tool 0.1 1000 "$sizes" xsect --method mie --particle "$re+${im}i")" 1 "$t")
+		need "xsect, $level, m = $re+${im}i, 0.1:1000:$sizes, a term" "$(ratio "$book" "$own")" "$(ratio "$limit" "$(half "$level")")"
+	done
 done
-book=$(for _ in 1 2 3; do ./textbook 1.33 0 1000000 1000000 1 2>err; done | least)
-own=$(per "$(tool 1000000 1000000 1 xsect --method mie --particle 1.33)" 1 "$(terms 1000000 1000000)")
-need 'xsect, a single size, x = 1e6' "$(ratio "$book" "$own")" "$(ratio 4 $half)"
+if [ -f "${MOTES_ARCHIVE:-}" ]; then
+	${CC:-cc} -std=gnu11 -O2 -fopenmp -I"$bench/../../lib" -o alone "$bench/mie_alone.c" "$MOTES_ARCHIVE" -lm
+	for m in '1.33 0' '1.5 0.1'; do
+		re=${m% *} im=${m#* }
+		for x in 100 1000 10000; do
+			n=$(count $((big / 4)) "$x" 100000)
+			book=$(for _ in 1 2 3; do ./textbook "$re" "$im" $x $x "$n" 2>err; done | least)
+			for level in $levels; do
+				own=$(for _ in 1 2 3; do MOTES_CPU=$level ./alone "$re" "$im" $x "$n" 2>err; done | least)
+				need "a single size, $level, m = $re+${im}i, x = $x" "$(ratio "$book" "$own")" "$(ratio 4 "$(half "$level")")"
+			done
+		done
+	done
+else
+	echo 'bench: mie: single sizes below 1e5 are not timed without MOTES_ARCHIVE (make bench-mie)' >&2
+fi
+for m in '1.33 0' '1.5 0.1'; do
+	re=${m% *} im=${m#* }
+	for x in 100000 1000000; do      # so large that each is computed by itself; many, since ticks are 10 ms
+		book=$(for _ in 1 2 3; do ./textbook "$re" "$im" $x $x 1 2>err; done | least)
+		own=$(per "$(tool $x "$x.1" $((10000000 / x)) xsect --method mie --particle "$re+${im}i")" 1 "$(terms $x $x)")
+		need "xsect, single sizes, m = $re+${im}i, x = $x" "$(ratio "$book" "$own")" "$(ratio 4 "$half")"
+	done
+done
 book=$(for _ in 1 2 3; do ./textbook 1.33 0 2900 3100 10 1801 2>err; done | least)
 own=$(per "$(tool 2900 3100 40 mie-phase --direct --angles 1801 --particle 1.33)" 1801 "$(terms 2900 3100)")
 need 'mie-phase --direct --angles 1801, 2900:3100:40, a term and angle' "$(ratio "$book" "$own")" "$(ratio 14 $half)"
