@@ -110,7 +110,8 @@ demo: programs
 RENDER_BENCHES = render lanes particles
 MIE_BENCHES = mie
 XSECT_BENCHES = xsect
-BENCHES = $(filter-out $(RENDER_BENCHES) $(MIE_BENCHES) $(XSECT_BENCHES),$(patsubst tests/bench/%.sh,%,$(wildcard tests/bench/*.sh)))
+CHARTS = $(patsubst tests/bench/%.sh,%,$(wildcard tests/bench/chart-*.sh))
+BENCHES = $(filter-out $(RENDER_BENCHES) $(MIE_BENCHES) $(XSECT_BENCHES) $(CHARTS),$(patsubst tests/bench/%.sh,%,$(wildcard tests/bench/*.sh)))
 bench: programs $(CHECKS:%=$(B)/tests/%)
 	PATH="$(CURDIR)/$(B)/bin:$$PATH" MOTES_TESTS="$(CURDIR)/$(B)/tests" sh tests/bench/run $(B)/bench $(BENCHES)
 bench-render: programs
@@ -124,6 +125,9 @@ bench-mie: programs
 # Cross sections by the cheapest method within a tolerance.
 bench-xsect: programs $(B)/tests/ladder
 	PATH="$(CURDIR)/$(B)/bin:$$PATH" MOTES_TESTS="$(CURDIR)/$(B)/tests" sh tests/bench/run $(B)/bench $(XSECT_BENCHES)
+# What each method is good for: error against time, the cheapest method, and where each fails. Beside each chart is a text of how it is made.
+charts: programs
+	PATH="$(CURDIR)/$(B)/bin:$$PATH" sh tests/bench/run $(B)/charts $(CHARTS)
 
 install: programs
 	install -d $(DESTDIR)$(PREFIX)/bin
@@ -134,7 +138,7 @@ install: programs
 clean:
 	rm -rf $(B)
 
-.PHONY: all programs asan-programs deps check asan demo bench bench-render bench-mie bench-xsect install clean
+.PHONY: all programs asan-programs deps check asan demo bench charts bench-render bench-mie bench-xsect install clean
 .SECONDARY:
 ifneq ($(filter deps,$(MAKECMDGOALS)),)
 .NOTPARALLEL:

@@ -63,9 +63,9 @@ static void check(const struct average *a, const struct size *s)
 	if (!(lo > 0 && lo <= s->radius && s->radius <= hi && hi < INFINITY) || (lo < hi && (lo == s->radius || hi == s->radius)))
 		die(path(a), "radius %g um does not lie between radius_lo %g um and radius_hi %g um", s->radius, lo, hi);
 	double least = s->x * (lo / s->radius), most = s->x * (hi / s->radius);
-	if (!(least >= SIZES_X_MIN && most <= SIZES_X_MAX && (hi == lo || cabs(s->m) * most <= 1e9)))
-		die(path(a), "the class of radius %g um has size parameters out of range: from %g to %g, and 1e9 over the index %g",
-		    s->radius, SIZES_X_MIN, SIZES_X_MAX, cabs(s->m));
+	if (!(least >= SIZES_X_MIN && most <= SIZES_X_MAX && (hi == lo || cabs(s->m) * most <= sizes_y_max(s->m))))
+		die(path(a), "the class of radius %g um has size parameters out of range: from %g to %g, and %g over the index %g",
+		    s->radius, SIZES_X_MIN, SIZES_X_MAX, sizes_y_max(s->m), cabs(s->m));
 	if (!(2 * s->x_im * (hi / s->radius) <= MIE_HOST_BETA_MAX))
 		die(path(a), "in the class of radius %g um 4 pi r Im(host) / wavelength goes up to %g, above %d", s->radius,
 		    2 * s->x_im * (hi / s->radius), MIE_HOST_BETA_MAX);

@@ -15,7 +15,6 @@
 /* Relative refractive indices in reach; with |m| x no larger than this, orders fit an int. */
 #define M_MIN 1e-3
 #define M_MAX 2e3
-#define Y_MAX(m) (cimag(m) > 1e-3 * cabs(m) ? 2e10 : 1e9)    /* of |m| x; more would take minutes a size */
 
 struct sizes {
 	struct tab *table;                  /* NULL: the options give the sizes */
@@ -30,6 +29,8 @@ struct sizes {
 	double complex *m;
 	double size_radius;                 /* (or x) of the size at hand */
 };
+
+double sizes_y_max(double complex m) { return cimag(m) > 1e-3 * cabs(m) ? 2e10 : 1e9; }
 
 double sizes_x(double radius, double wavelength, double host)
 {
@@ -244,8 +245,8 @@ static void check_x(const struct sizes *s, const struct size *size)
 			    2 * size->x_im, size_name(size, name), MIE_HOST_BETA_MAX);
 		m *= size->host / creal(size->host);    /* m x is now that of the complex x */
 	}
-	if ((creal(m) + cimag(m)) * x > 1e9 && cabs(m) * x > Y_MAX(m))    /* the former without a root */
-		die("--particle", "size parameter %g times relative index %g exceeds %g", x, cabs(m), Y_MAX(m));
+	if ((creal(m) + cimag(m)) * x > 1e9 && cabs(m) * x > sizes_y_max(m))    /* the former without a root */
+		die("--particle", "size parameter %g times relative index %g exceeds %g", x, cabs(m), sizes_y_max(m));
 	if (x >= SIZES_X_MIN && x <= SIZES_X_MAX)
 		return;
 	if (s->table)

@@ -47,6 +47,9 @@ struct sizes;
 #define SIZES_X_MIN 1e-8
 #define SIZES_X_MAX 1e7
 
+/* sizes_y_max - the largest |m| x of relative index m; more would take minutes a size. */
+double sizes_y_max(double complex m);
+
 /* sizes_x - size parameter of a radius at a vacuum wavelength (both um) in a host of the given index. */
 double sizes_x(double radius, double wavelength, double host);
 

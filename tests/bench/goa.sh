@@ -11,18 +11,14 @@
 out=$1
 "$MOTES_TESTS/goa_plus" --bench | tee goa.tsv
 
-cpu() { sh -c '"$@" >/dev/null; times' sh "$@" | awk 'NR == 2 { gsub(/[ms]/, " "); print $1 * 60 + $2 + $3 * 60 + $4 }'; }
-# least COMMAND..: of three runs
-least() {
-	a=$(cpu "$@") b=$(cpu "$@") c=$(cpu "$@")
-	echo "$a $b $c" | awk '{ t = $1; if ($2 < t) t = $2; if ($3 < t) t = $3; print t }'
-}
+bench=$(cd "$(dirname "$0")" && pwd)
+. "$bench/timing"
 printf '# m\tx\tcommand\ttime\n' | tee tools.tsv
 for m in 1.33 1.5+0.1i; do
 	for x in 2900:3100:256 29900:30100:32; do
-		unit=$(least mie-phase --particle $m --size-parameter $x --theta 0:180:0.1)
+		unit=$(quickest mie-phase --particle $m --size-parameter $x --theta 0:180:0.1)
 		for tool in 'goa-phase --model goa' 'goa-phase --model goa+' 'mie-phase'; do
-			t=$(least $tool --particle $m --size-parameter $x --angles 1801)
+			t=$(quickest $tool --particle $m --size-parameter $x --angles 1801)
 			awk -v OFS='\t' -v m=$m -v x="$x" -v tool="$tool" -v t="$t" -v u="$unit" 'BEGIN { print m, x, tool, sprintf("%.3g", t / u) }'
 		done
 	done

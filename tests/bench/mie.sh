@@ -26,7 +26,6 @@ for p in miepython lxmie scattnlay; do
 	case " $(echo "$peers" | paste -sd' ' -) " in *" $p "*) ;; *) echo "bench: mie: no $p here (make bench-mie gets it): left out" >&2 ;; esac
 done
 ${CC:-cc} -std=gnu11 -O3 -march=native -o textbook "$bench/mie_textbook.c" -lm
-least() { sort -g | head -n 1; }
 
 # ---- errors over the reference rows, those of one index together
 

@@ -11,8 +11,8 @@
 out=$1
 sizes='30.49 100.49 300.49 1000.49 3000.49 10000.49'     # between the resonances, which sit elsewhere for every m
 
-# cpu COMMAND..: seconds of CPU time.
-cpu() { sh -c '"$@" >/dev/null; times' sh "$@" | awk 'NR == 2 { gsub(/[ms]/, " "); print $1 * 60 + $2 + $3 * 60 + $4 }'; }
+bench=$(cd "$(dirname "$0")" && pwd)
+. "$bench/timing"
 
 # a_size TOOL M X: seconds for one size, from so many of them in one run that the clock's ticks of 10 ms are fine enough; the
 # least of three such runs, since whatever else the machine does only adds.

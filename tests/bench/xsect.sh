@@ -19,15 +19,6 @@ failed=0
 
 # ---- what it saves
 
-least() { sort -g | head -n 1; }
-# seconds COMMAND..: of CPU time; what is over too soon for the clock is done ten times
-seconds() {
-	s=$(cpu "$@")
-	if awk -v s="$s" 'BEGIN { exit !(s < 0.3) }'; then
-		s=$(cpu sh -c 'for i in 1 2 3 4 5 6 7 8 9 10; do "$@" || exit; done' sh "$@" | awk '{ print ($1 > 0 ? $1 : 0.01) / 10 }')
-	fi
-	echo "$s"
-}
 printf '# m\ttolerance\tus a size, auto\tus a size, mie\tspeed-up\trayleigh\tcam\tevans-fournier\tmie\n' >xsect.tsv
 for m in 1.33 1.49 1.5+0.1i 0.75; do
 	for _ in $runs; do

@@ -19,7 +19,8 @@ do for [k = 1:n] {
 		set bmargin at screen 0.905 - (j + 1) * H + 0.007
 		if (j == 0) {
 			set label 2 at screen left(k) + W / 2, 0.93 center "r = ".r." µm"
-			set label 3 at screen left(k) + W / 2, 0.03 center system(sprintf("awk '$1 == %s { printf \"rms %%.4f (noise %%.4f)\", $2, $3 }' %s", r, rms))
+			set label 3 at screen left(k) + W / 2, 0.03 center \
+				system(sprintf("awk '$1 == %s { printf \"rms %%.4f (noise %%.4f)\", $2, $3 }' %s", r, rms))
 			set label 4 at screen 0.02, 0.905 - (k == 1 ? 0.5 : 9) * H rotate by 90 center "Mie"
 			set label 5 at screen 0.02, 0.905 - (k == 1 ? 1.5 : 9) * H rotate by 90 center "GOA"
 		} else {

@@ -16,7 +16,8 @@ do for [k = 1:n + 1] {
 	set rmargin at screen (column + 1) * W - 0.005
 	set tmargin at screen top
 	set bmargin at screen top - H + 0.013
-	about_k = k > n ? "continuous" : system(sprintf("awk '$1 == \"%s\" { printf \"10^%d in (%%.2g mm)^3: rms %%.3f\", $2, $3 }' %s", word(numbers, k), k + 2, about))
+	about_k = k > n ? "continuous" : \
+		system(sprintf("awk '$1 == \"%s\" { printf \"10^%d in (%%.2g mm)^3: rms %%.3f\", $2, $3 }' %s", word(numbers, k), k + 2, about))
 	set label 2 at screen (column + 0.5) * W, top - H - 0.005 center about_k
 	plot sprintf("%sgrains-%s.png", out, k > n ? "1e3-continuous" : word(numbers, k)) binary filetype=png with rgbimage
 	unset label 1
