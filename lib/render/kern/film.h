@@ -64,8 +64,6 @@ FN mv film_values(const struct scene *s, struct path *p, mv m, fv *value)
 {
 	mv scattered = ilt(IV(0), p->order), often = ilt(IV(1), p->order), bad = NO_LANE;
 	fv zero = FV(0.f), all[3] = { zero, zero, zero };
-	EACH(k, FILM_SUMS)
-		value[k] = zero;
 	for (int c = 0; c < CHANNELS; c++) {
 		/* what was seen last belongs to the order that the path ended in */
 		fv last = p->rgb[c], none = p->before[0][c], once = p->before[1][c];
@@ -97,13 +95,13 @@ FN mv film_values(const struct scene *s, struct path *p, mv m, fv *value)
  * sum passes its limit. */
 FN uint64 film_take(const struct scene *s, GLOBAL int64 *sum, const struct path *p, const fv *value, int i, l8 *over)
 {
-#define EIGHT(v) F8(LANE_FLOAT((v)[0], i), LANE_FLOAT((v)[1], i), LANE_FLOAT((v)[2], i), LANE_FLOAT((v)[3], i), \
-                    LANE_FLOAT((v)[4], i), LANE_FLOAT((v)[5], i), LANE_FLOAT((v)[6], i), LANE_FLOAT((v)[7], i))
-	l8 n = film_integers(EIGHT(value));
+#define SIX(v) F8(LANE_FLOAT((v)[0], i), LANE_FLOAT((v)[1], i), LANE_FLOAT((v)[2], i), LANE_FLOAT((v)[3], i), \
+                  LANE_FLOAT((v)[4], i), LANE_FLOAT((v)[5], i), 0.f, 0.f)
+	l8 n = film_integers(SIX(value));
 	*over |= film_add8(sum, n);
 	uint64 high = film_add_square(sum + SUM_SQUARE, PART(n, SUM_LUMINANCE));
 	if (CHANNELS == 3)
-		*over |= film_add8(sum + SUM_GREEN, film_integers(EIGHT(value + SUM_GREEN)));
+		*over |= film_add8(sum + SUM_GREEN, film_integers(SIX(value + SUM_GREEN)));
 	for (int j = 0; SPECTRAL && j < LANE(p->waves.n, i); j++) {
 		GLOBAL int64 *own = sum + FILM_SUMS + LANE(p->waves.first, i) + s->n_groups * j;
 		float v = LANE_FLOAT(p->spectrum[j], i);

@@ -64,10 +64,20 @@ FN mv ieq(iv a, iv b) { return TRUTH(a == b); }
 #else
 #define EACH_AT(at, p, i) (at(p, i))
 #endif
-/* Truths, by a byte a lane. The built-in any may test lane by lane; this one is seen to be a vector's. */
+/* Truths. Drivers of CPUs are made of clang, one of whose built-ins gives a bit a lane at once; others go by a byte a lane, for the
+ * built-in any may test lane by lane. */
 #define any(m) any_lane(m)
 FN uint32 bits_of_bytes(ulong a) { return (uint32)(((a & 0x8040201008040201ul) * 0x0101010101010101ul) >> 56); }
-#if LANES == 16
+#if LANES == 16 && defined __clang__ && defined __AVX512DQ__
+#define BITS_OF(m) (uint32)(ushort)__builtin_ia32_cvtd2mask512(m)
+#elif LANES == 8 && defined __clang__ && defined __AVX2__
+#define BITS_OF(m) (uint32)__builtin_ia32_movmskps256(as_float8(m))
+#endif
+#ifdef BITS_OF
+FN uint32 bits_of(mv m) { return BITS_OF(m); }
+FN int count(mv m) { return (int)popcount(BITS_OF(m)); }
+FN int any_lane(mv m) { return BITS_OF(m) != 0; }
+#elif LANES == 16
 FN ulong2 bytes_of(mv m) { return as_ulong2(convert_char16(m)); }
 FN uint32 bits_of(mv m) { ulong2 a = bytes_of(m); return bits_of_bytes(a.x) | bits_of_bytes(a.y) << 8; }
 FN int count(mv m) { ulong2 a = bytes_of(m); return (int)((popcount(a.x) + popcount(a.y)) >> 3); }
@@ -94,12 +104,19 @@ typedef float8 f8;
 typedef long8 l8;
 FN l8 l8_of(f8 x) { return convert_long8_rtz(x); }
 FN f8 f8_of(l8 x) { return convert_float8(x); }
+#if LANES > 1
+/* Loaded and stored whole: vstore8 may be two halves, for which a load that soon follows waits. */
+typedef long8 __attribute__((aligned(8))) l8_anywhere;
+FN l8 l8_load(GLOBAL const int64 *p) { return *(GLOBAL const l8_anywhere *)p; }
+FN void l8_store(GLOBAL int64 *p, l8 x) { *(GLOBAL l8_anywhere *)p = x; }
+#else
 FN l8 l8_load(GLOBAL const int64 *p) { return vload8(0, p); }
 FN void l8_store(GLOBAL int64 *p, l8 x) { vstore8(x, 0, p); }
+#endif
 #define PART(v, i) (((__private int64 *)&(v))[i])
 #define F8(...) ((f8)(__VA_ARGS__))
 #define L8(...) ((l8)(__VA_ARGS__))
-FN uint64 high_product(uint64 a, uint64 b) { return mul_hi(a, b); }
+FN uint64 high_product(uint64 a, uint64 b) { return (a | b) >> 32 ? mul_hi(a, b) : 0; }    /* as a rule it is 0 */
 FN fv gather(mv m, FLOATS p, iv i) { i &= m; return (fv)EACH_AT(float_at, p, i); }
 FN iv igather(mv m, INTS p, iv i) { i &= m; return (iv)EACH_AT(int_at, p, i); }
 #if CHUNKS > 1 || LANES == 1
