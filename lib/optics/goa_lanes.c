@@ -28,6 +28,8 @@ static void coherent(const struct goa_packet *k, size_t n, double x, const struc
 {
 	for (const struct goa_packet *end = k + n; k < end; k++) {
 		double size[GOA_WIDTH];
+		if (x * k->clearest > GOA_ABSORBED)
+			continue;
 		spreads(k, x, cap, size);
 #pragma omp simd
 		for (int i = 0; i < GOA_WIDTH; i++) {
@@ -46,6 +48,8 @@ static void incoherent(const struct goa_packet *k, size_t n, double x, const str
 {
 	for (const struct goa_packet *end = k + n; k < end; k++) {
 		double size[GOA_WIDTH];
+		if (x * k->clearest > GOA_ABSORBED)
+			continue;
 		spreads(k, x, cap, size);
 #pragma omp simd
 		for (int i = 0; i < GOA_WIDTH; i++) {

@@ -80,6 +80,7 @@ static void put(struct goa_packet *k, int lane, const struct goa_beam *b, const 
 	k->quarters[lane] = b->ray.eighths / 2.0;
 	k->fade[lane] = cimag(b->path);
 	k->fades |= k->fade[lane] != 0;
+	k->clearest = fminf(k->clearest, (float)k->fade[lane]);
 	k->spread[lane] = spread < 1e15 ? spread : 1e15;
 	double until = settled(&b->ray, &caustic[b->ray.p]);
 	k->until[lane] = until >= 0 ? until : INFINITY;
@@ -123,8 +124,10 @@ int goa_rays_find(double complex m, int order, const struct caustic *caustic, in
 					goto no_memory;
 				out->packet = more;
 			}
-			for (; used < end; used++)
+			for (; used < end; used++) {
 				memset(&out->packet[used], 0, sizeof out->packet[used]);
+				out->packet[used].clearest = INFINITY;
+			}
 			for (int i = 0; i < k; i++)
 				put(&out->packet[out->first[b] + (size_t)i], lane, &beam[i], caustic);
 		}

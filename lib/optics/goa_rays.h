@@ -10,6 +10,7 @@
 #include <stddef.h>
 
 #define GOA_WIDTH 8
+#define GOA_ABSORBED 40    /* e^-40 of a ray is nothing */
 
 /* A ray and what does not depend on size: its amplitude is -x sqrt(D) f exp(i x path). */
 struct goa_beam {
@@ -25,6 +26,7 @@ struct goa_packet {
 	double until[GOA_WIDTH];         /* the size below which a cap may act */
 	double f[4][GOA_WIDTH];          /* -F_1 re, im, -F_2 re, im */
 	int fades;                       /* any of these is absorbed */
+	float clearest;                  /* least fade */
 	struct ray ray[GOA_WIDTH];
 };
 
