@@ -2,7 +2,7 @@
 # mie-phase: all angles at once against the direct sum, the angles it chooses, and what it refuses.
 # shellcheck source=tests/lib.sh
 . "$(dirname "$0")/lib.sh"
-plan 41
+plan 55
 cd "$tmp" || exit 2
 
 # apart A B: the largest difference of amplitudes, in units of the largest amplitude in A.
@@ -100,6 +100,58 @@ for t in 1e-2 1e-4; do
 done
 [ "$(cat rows.1e-2)" -lt "$(cat rows.1e-4)" ]
 ok $? 'and a looser one takes fewer'
+
+# GOA+ where it meets the tolerance and is cheaper, and that is said.
+sphere() { mie-phase --particle 1.33 --size-parameter 30000.49 --verbose "$@" 2>said; }
+l1() {    # of two tables at equally spaced angles
+	tabtxt --columns theta,p "$1" >l1.a
+	tabtxt --columns p "$2" | paste l1.a - | awk '
+		NR > 1 { d = $2 - $3; sum += (d < 0 ? -d : d) * sin($1 * pi / 180) }
+		BEGIN { pi = atan2(0, -1) }
+		END { print (NR > 2 ? sum * pi * pi / (NR - 2) : 99) }'
+}
+sphere --angles 1801 --direct -o direct.tab
+for t in 1e-2 0.1; do
+	sphere --angles 1801 --tolerance $t -o rough.tab
+	is 'mie-phase: verbose: x = 30000.49: method goa+, estimated error 0.005' "$(cat said)" "--tolerance $t takes GOA+ for x = 30000.49"
+	e=$(l1 rough.tab direct.tab)
+	within "$e" 0.005 && within 1e-9 "$e"
+	ok $? "which is off by $e"
+done
+sphere --angles 1801 --tolerance 1e-6 -o close.tab
+is 'mie-phase: verbose: x = 30000.49: method mie, estimated error 1e-07' "$(cat said)" '--tolerance 1e-6 does not'
+e=$(l1 close.tab direct.tab)
+within "$e" 1e-6
+ok $? "and is off by $e"
+sphere --angles 1801 -o plain.tab
+e=$(apart direct.tab plain.tab)
+within "$e" 1e-12
+ok $? "nor is it taken unasked ($e)"
+while read -r what options; do
+	# shellcheck disable=SC2086
+	sphere $options -o out.tab
+	is 'mie-phase: verbose: method mie for all sizes' "$(cat said)" "nor with $what"
+done <<END
+--direct --angles 19 --tolerance 1e-2 --direct
+--theta --theta 0:180:10 --tolerance 1e-2
+END
+mie-coeffs --particle 1.33 --size-parameter 30000.49 -o coeffs.tab
+mie-phase --angles 19 --tolerance 1e-2 --verbose coeffs.tab -o out.tab 2>said
+is 'mie-phase: verbose: method mie for all sizes' "$(cat said)" 'nor for coefficients'
+mie-phase --particle 1.5 --host 1.33+1e-6i --size-parameter 30000.49 --angles 19 --tolerance 1e-2 --verbose -o out.tab 2>said
+is 'mie-phase: verbose: x = 30000.49: method mie, estimated error 0.001' "$(cat said)" 'nor in a host that absorbs'
+
+# A size is computed alike among others, by any number of threads.
+drops() { mie-phase --particle water --angles 91 --tolerance 1e-2 --verbose "$@"; }
+for n in 1 2; do
+	drops --wavelength 500nm,600nm --radius 100um:4mm:5 --threads $n -o drops.$n 2>said.$n
+	cksum <drops.$n >sum.$n
+done
+is "$(cat sum.1 said.1)" "$(cat sum.2 said.2)" 'the same bytes with 1 and 2 threads, and the same said'
+is '4 goa+, 6 mie' "$(grep -c 'goa+' said.1) goa+, $(grep -c 'mie, ' said.1) mie" 'both methods in one table'
+drops --wavelength 600nm --radius 4mm 2>said | tabtxt | sed 1d >alone
+tabtxt drops.1 | tail -91 | cmp -s - alone
+ok $? 'and the last size as it is alone'
 
 # The mean over sizes has angles of its own.
 psd lognormal --median 3um --gsd 1.2 --classes 12 -o sizes.psd

@@ -1,5 +1,6 @@
 /* mie-phase - scattering amplitudes and phase functions of spheres by Lorenz-Mie theory. */
 #include "base/die.h"
+#include "optics/goa_plus.h"
 #include "optics/mie_series.h"
 #include "pipe/phase.h"
 
@@ -7,10 +8,12 @@
 #include <stdlib.h>
 
 #define TOLERANCE 1e-3    /* of the default grid; amplitudes are as good as they can be unless one is asked for */
+#define KEPT 64           /* indices whose rays are kept; others' are found for each size */
 
 struct request {
 	int direct;           /* sums only */
 	double tolerance;     /* of amplitudes, 0: none */
+	double rough;         /* error in L1 at which GOA+ may do, 0: never */
 };
 
 /* One sphere: its series, or the coefficients for sums. */
@@ -63,8 +66,62 @@ static int sphere_at(const struct phase_state *state, int n, const double *theta
 
 static const struct phase_profile profile = { sphere_open, sphere_at, sphere_close };
 
+/* Rays of an index, found by the thread that needs them first, serve all: the angles never change. */
+static struct {
+	double complex m;
+	struct goa_plus *rays;
+} kept[KEPT];
+static int nkept;
+
+static struct goa_plus *find_rays(double complex m, int n, const double *theta)
+{
+	struct goa_plus *g = goa_plus_new(m);
+	if (!g || !goa_plus_aim(g, n, theta))
+		return g;
+	goa_plus_free(g);
+	return NULL;
+}
+
+static int goa_plus(const struct size *size, int n, const double *theta, struct phase_result *out)
+{
+	struct goa_plus *g;
+	struct efficiencies q;
+	int k = 0, own;
+#pragma omp critical
+	{
+		while (k < nkept && kept[k].m != size->m)
+			k++;
+		own = k == nkept && (k == KEPT || (k + 1) * n > GOA_PLUS_ANGLES);
+		if (k == nkept && !own && (kept[k].rays = find_rays(size->m, n, theta)))
+			kept[nkept++].m = size->m;
+		g = own ? NULL : kept[k].rays;
+	}
+	if (own)
+		g = find_rays(size->m, n, theta);
+	int failed = !g || goa_plus_at(g, size->x, out->s1, out->s2, &q);
+	if (own)
+		goa_plus_free(g);
+	if (failed)
+		return -1;
+	out->q_sca = q.sca;
+	out->norm = M_PI * size->x * size->x * q.sca;
+	return 0;
+}
+
+/* A size at given angles. Where there is a choice it is by size, index and number of angles alone. */
 static int model(const void *context, struct waves *w, int n, const double *theta, struct phase_result *out)
 {
+	const struct request *r = context;
+	if (r->rough > 0) {
+		out->method = "mie";
+		out->error = r->tolerance;
+		double error = w->size.x_im > 0 ? 1 : goa_plus_error(w->size.x, w->size.m);
+		if (error <= r->rough && goa_plus_pays(w->size.x, n)) {
+			out->method = "goa+";
+			out->error = error;
+			return goa_plus(&w->size, n, theta, out);
+		}
+	}
 	struct phase_state *s = sphere_open(context, w, (size_t)n);
 	if (!s)
 		return -1;
@@ -86,7 +143,7 @@ int main(int argc, char **argv)
 		SIZES_OPTIONS(sizes),
 		PHASE_OPTIONS(phase),
 		{ "--tolerance", OPT_REAL, &tolerance, 1e-6, 0.1, "T", "error allowed to p: half the integral of |dp|", 0 },
-		{ "--verbose", OPT_FLAG, &phase.verbose, 0, 0, NULL, "say how many sizes a mean took", 1 },
+		{ "--verbose", OPT_FLAG, &phase.verbose, 0, 0, NULL, "say which method was used, and how many sizes a mean took", 1 },
 		{ "--direct", OPT_FLAG, &request.direct, 0, 0, NULL, "sum angle by angle, even where a transform is faster", 0 },
 		OPT_OUTPUT(&output),
 		OPT_END
@@ -104,6 +161,11 @@ int main(int argc, char **argv)
 	}
 	request.direct |= phase.theta.n > 0;
 	struct coeffs *in = coeffs_open(&sizes, args.n ? args.operand[0] : NULL);
+	/* Of what is given, angles and sizes, GOA+ may have all of the error. */
+	if (!isnan(tolerance) && phase.angles && !phase.average && !request.direct && !coeffs_read(in))
+		request.rough = tolerance;
+	if (phase.verbose && request.rough == 0)
+		warn("verbose", "method mie for all sizes");
 	phase_table(&phase, in, model, &request, output, args.history);
 	coeffs_close(in);
 	return 0;

@@ -7,7 +7,7 @@
 
 #include "optics/mie.h"
 
-/* What depends on m and the angles is found once. A struct goa_plus serves one thread at a time. */
+/* What depends on m and the angles is found once, 3 kB an angle. */
 struct goa_plus;
 
 /* goa_plus_new - Re m > 0, Im m >= 0; NULL when memory ran out. */
@@ -20,11 +20,17 @@ int goa_plus_aim(struct goa_plus *g, int n, const double *theta);
 
 /* goa_plus_at - S1, S2 of size x > 0 at the angles of goa_plus_aim. *q: extinction by the optical theorem, absorption by what the
  * partial waves lose, scattering the rest; g is not computed (0). The integral of (|S1|^2 + |S2|^2)/2 over the sphere is pi x^2
- * q->sca to within the error in L1. Returns 0, or -1 when memory ran out. */
-int goa_plus_at(struct goa_plus *g, double x, double complex *s1, double complex *s2, struct efficiencies *q);
+ * q->sca to within the error in L1. Several threads may ask at once. Returns 0, or -1 when memory ran out. */
+int goa_plus_at(const struct goa_plus *g, double x, double complex *s1, double complex *s2, struct efficiencies *q);
 
 /* goa_plus_error - estimate of the phase function's error in L1, half the integral of |p - p(Mie)| over the sphere; 1 where the
  * approximation does not hold. */
 double goa_plus_error(double x, double complex m);
+
+/* goa_plus_pays - whether a size at so many angles is expected to take less time than by mie_series.h, rays being found once for
+ * GOA_PLUS_SHARED sizes of an index. It does not know how many there are: a size is computed alike alone and among others. */
+#define GOA_PLUS_SHARED 8
+#define GOA_PLUS_ANGLES 100000     /* at most, by the memory they take */
+int goa_plus_pays(double x, int ntheta);
 
 #endif

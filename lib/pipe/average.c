@@ -143,7 +143,7 @@ static int once(const struct average *a, struct waves *w, size_t n, double *p, d
 #pragma omp parallel for schedule(dynamic) reduction(|:failed) if (n > 1)
 	for (size_t i = 0; i < n; i++) {
 		double complex *s = malloc(2 * (size_t)a->n * sizeof *s);
-		struct phase_result r = { s, s + a->n, 0, 0 };
+		struct phase_result r = { .s1 = s, .s2 = s + a->n };
 		if (!s || a->model(a->context, &w[i], (int)a->n, a->theta, &r)) {
 			failed = 1;
 		} else {

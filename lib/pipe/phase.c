@@ -76,6 +76,13 @@ static void put_rows(struct job *j, const struct waves *w, int n, const double *
 	}
 }
 
+static void tell(const struct job *j, const struct size *size, const struct phase_result *r)
+{
+	char at[SIZE_NAME];
+	if (j->o->verbose && r->method)
+		warn("verbose", "%s: method %s, estimated error %.2g", size_name(size, at), r->method, r->error);
+}
+
 static int count(const struct job *j, double x)
 {
 	return j->n ? j->n : angles_count(x);
@@ -108,6 +115,7 @@ static void chunk(struct job *j, struct waves *w, const double *x_grid, size_t n
 		die(NULL, "out of memory");
 	for (size_t i = 0; i < n; i++) {
 		put_rows(j, &w[i], (int)(at[i + 1] - at[i]), theta + at[i], &r[i]);
+		tell(j, &w[i].size, &r[i]);
 		waves_free(&w[i]);
 	}
 	free(theta);
@@ -136,7 +144,7 @@ static void put_adapted(struct job *j, const struct adapted *a)
 			int count = a->n - from < BLOCK ? (int)(a->n - from) : BLOCK;
 			if (profile->at(a->state[i], count, a->theta + from, s, s + BLOCK))
 				die(NULL, "out of memory");
-			struct phase_result r = { s, s + BLOCK, a->state[i]->norm, a->state[i]->q_sca };
+			struct phase_result r = { .s1 = s, .s2 = s + BLOCK, .norm = a->state[i]->norm, .q_sca = a->state[i]->q_sca };
 			put_rows(j, &a->w[i], count, a->theta + from, &r);
 		}
 	free(s);

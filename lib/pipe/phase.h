@@ -25,6 +25,8 @@ struct phase_result {
 	double complex *s1, *s2;     /* [n], to be filled */
 	double norm;                 /* p = (|S1|^2 + |S2|^2) / (2 norm): integral of (|S1|^2 + |S2|^2)/2 over the sphere */
 	double q_sca;                /* scattering efficiency */
+	const char *method;          /* where a model chooses one for each size, for phase_options.verbose; else NULL */
+	double error;                /* its estimate */
 };
 
 /* A model; theta[n] in degrees. Several threads call it at once, each with waves of its own, which it may solve.

@@ -6,7 +6,7 @@
 #        the least of several. Of this machine and this run: only ratios say something.
 # ratio: over Mie's of the same size.
 # aim:   us to find the rays of an angle, once for an index.
-# Then whole commands for 256 sizes around 3000 and 32 around 3e4, 1801 angles, in units of mie-phase's direct sum: tools.tsv.
+# Then whole commands for 256 sizes around 3000, 64 around 15000 and 3e4, 1801 angles, in units of mie-phase's direct sum: tools.tsv.
 # usage, by tests/bench/run: goa.sh OUT
 out=$1
 "$MOTES_TESTS/goa_plus" --bench | tee goa.tsv
@@ -15,9 +15,9 @@ bench=$(cd "$(dirname "$0")" && pwd)
 . "$bench/timing"
 printf '# m\tx\tcommand\ttime\n' | tee tools.tsv
 for m in 1.33 1.5+0.1i; do
-	for x in 2900:3100:256 29900:30100:32; do
+	for x in 2900:3100:256 14900:15100:64 29900:30100:64; do
 		unit=$(quickest mie-phase --particle $m --size-parameter $x --theta 0:180:0.1)
-		for tool in 'goa-phase --model goa' 'goa-phase --model goa+' 'mie-phase'; do
+		for tool in 'goa-phase --model goa' 'goa-phase --model goa+' mie-phase 'mie-phase --tolerance 1e-2'; do
 			t=$(quickest $tool --particle $m --size-parameter $x --angles 1801)
 			awk -v OFS='\t' -v m=$m -v x="$x" -v tool="$tool" -v t="$t" -v u="$unit" 'BEGIN { print m, x, tool, sprintf("%.3g", t / u) }'
 		done
