@@ -22,8 +22,8 @@ INLINE void vec_sincos(vec z, vec *sine, vec *cosine)
 	s = r + (r * s + rest * one);
 	c = one + (((1.0 - one) - half) + (c - r * rest));
 	truths q = bits_of(turns), odd = -(q & 1), si = bits_of(s), ci = bits_of(c);
-	*sine = of_bits(((odd & ci) | (~odd & si)) ^ ((q & 2) << 62));
-	*cosine = of_bits(((odd & si) | (~odd & ci)) ^ (((q + 1) & 2) << 62));
+	*sine = of_bits(((odd & ci) | (~odd & si)) ^ (-(q >> 1 & 1) & INT64_MIN));
+	*cosine = of_bits(((odd & si) | (~odd & ci)) ^ (-((q + 1) >> 1 & 1) & INT64_MIN));
 }
 
 #endif

@@ -63,7 +63,8 @@ static void put_rows(struct job *j, const struct waves *w, int n, const double *
 {
 	double row[TAB_COLS];
 	int k = coeffs_key(j->in, &w->size, row);
-	memcpy(row + k + 6, w->size.carried, (size_t)j->ncarried * sizeof *row);
+	if (j->ncarried)
+		memcpy(row + k + 6, w->size.carried, (size_t)j->ncarried * sizeof *row);
 	for (int i = 0; i < n; i++) {
 		double re1 = creal(r->s1[i]), im1 = cimag(r->s1[i]), re2 = creal(r->s2[i]), im2 = cimag(r->s2[i]);
 		row[k] = theta[i];
