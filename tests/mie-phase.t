@@ -2,7 +2,7 @@
 # mie-phase: all angles at once against the direct sum, the angles it chooses, and what it refuses.
 # shellcheck source=tests/lib.sh
 . "$(dirname "$0")/lib.sh"
-plan 55
+plan 56
 cd "$tmp" || exit 2
 
 # apart A B: the largest difference of amplitudes, in units of the largest amplitude in A.
@@ -47,6 +47,12 @@ for m in 1.33 1.5+0.1i 0.75; do
 	awk -v a="$e" 'BEGIN { exit !(a > 0) }'
 	ok $? 'and are two ways indeed'
 done
+# A weak sphere: what comes back is 7e-9 of what goes forward.
+mie-phase --particle 1.01+0.01i --size-parameter 1e6 --angles 2001 | tabtxt --columns s1_re,s1_im,s2_re,s2_im | tail -n 1 >a
+mie-phase --particle 1.01+0.01i --size-parameter 1e6 --theta 180 | tabtxt --columns s1_re,s1_im,s2_re,s2_im | tail -n 1 >b
+e=$(paste a b | awk '{ print (NF == 8 ? sqrt((($1 - $5)^2 + ($2 - $6)^2 + ($3 - $7)^2 + ($4 - $8)^2) / ($5^2 + $6^2 + $7^2 + $8^2)) : 99) }')
+within "$e" 1e-10
+ok $? "all angles at once and the direct sum differ by $e of themselves straight back"
 mie-phase --particle 1.33 --size-parameter 2000.3 --theta 0:180:0.02 -o list.tab
 mie-phase --particle 1.33 --size-parameter 2000.3 --theta 0:180:0.02 --direct -o summed.tab
 tabtxt list.tab >a

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #define TOLERANCE 1e-3    /* of the default grid; amplitudes are as good as they can be unless one is asked for */
+#define BEHIND 10         /* from 180 degrees, over the number of partial waves */
 #define KEPT 64           /* indices whose rays are kept; others' are found for each size */
 
 struct request {
@@ -50,7 +51,6 @@ static struct phase_state *sphere_open(const void *context, struct waves *w, siz
 			free(s);
 			return NULL;
 		}
-		waves_drop(w);
 	}
 	return &s->state;
 }
@@ -58,10 +58,21 @@ static struct phase_state *sphere_open(const void *context, struct waves *w, siz
 static int sphere_at(const struct phase_state *state, int n, const double *theta, double complex *s1, double complex *s2)
 {
 	const struct sphere *s = (const struct sphere *)state;
+	const struct waves *w = s->w;
 	if (!s->series)
-		return mie_amplitudes(s->n, s->w->a, s->w->b, n, theta, s1, s2);
+		return mie_amplitudes(s->n, w->a, w->b, n, theta, s1, s2);
 	mie_series_at(s->series, n, theta, s1, s2);
-	return 0;
+	/* What a series rounds off the forward peak is, where little is scattered backwards, most of all seen there: the few angles about
+	 * that axis are summed. */
+	double behind = 180 - BEHIND * (180 / M_PI) / s->n;
+	int failed = 0;
+	for (int i = 0, end; i < n && !failed; i = end) {
+		for (end = i + 1; end < n && (theta[end] > behind) == (theta[i] > behind);)
+			end++;
+		if (theta[i] > behind)
+			failed = mie_amplitudes(s->n, w->a, w->b, end - i, theta + i, s1 + i, s2 + i);
+	}
+	return failed;
 }
 
 static const struct phase_profile profile = { sphere_open, sphere_at, sphere_close };
