@@ -4,11 +4,11 @@
 
 #include <string.h>
 
-static void put(struct tab_out *out, struct coeffs *in, int ncarried, const struct waves *w)
+static void put(struct tab_out *out, struct coeffs *in, const struct waves *w)
 {
 	double row[TAB_COLS];
 	int k = coeffs_key(in, &w->size, row);
-	memcpy(row + k + COEFFS_COLS, w->size.carried, (size_t)ncarried * sizeof *row);
+	coeffs_carry(in, w, row + k + COEFFS_COLS);
 	for (int l = 1; l <= w->n; l++) {
 		coeffs_values(w, l, row + k);
 		tab_put(out, row);
@@ -31,7 +31,7 @@ static void run(struct coeffs *in, const char *output, const char *command)
 		if (failed)
 			die(NULL, "out of memory");
 		for (int i = 0; i < n; i++) {
-			put(out, in, ncarried, &w[i]);
+			put(out, in, &w[i]);
 			waves_free(&w[i]);
 		}
 	}

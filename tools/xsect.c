@@ -111,7 +111,7 @@ static void run(struct coeffs *in, struct ladder *ladder, const char *output, co
 			struct worst *most = &worst[a[i].method];
 			int key = coeffs_key(in, &w[i].size, row), j = key;
 			j += values(by_x, &w[i].size, &a[i], row + j);
-			memcpy(row + j, w[i].size.carried, (size_t)ncarried * sizeof *row);
+			coeffs_carry(in, &w[i], row + j);
 			tab_put(out, row);
 			if (!most->n++ || !(a[i].error <= most->error)) {
 				most->size = w[i].size;

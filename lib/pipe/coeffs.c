@@ -133,6 +133,12 @@ int coeffs_carried(struct coeffs *c, int nown, const struct tab_col *own, struct
 	return c->ncarried = sizes_carried_of(c->table, nown + COEFFS_COLS, all, cols, c->carried_col);
 }
 
+void coeffs_carry(const struct coeffs *c, const struct waves *w, double *row)
+{
+	for (int i = 0; i < c->ncarried; i++)
+		row[i] = w->size.carried[i];
+}
+
 static void bad_row(const struct coeffs *c, const char *what)
 {
 	die(tab_path(c->table), "row %llu: %s", (unsigned long long)tab_row(c->table), what);

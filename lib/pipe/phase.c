@@ -28,7 +28,7 @@ struct job {
 	phase_model *model;
 	const void *context;
 	struct tab_out *out;
-	int nkey, ncarried;
+	int nkey;
 	int n;                    /* angles for all, 0: a grid for each size */
 	double *theta;
 };
@@ -63,8 +63,7 @@ static void put_rows(struct job *j, const struct waves *w, int n, const double *
 {
 	double row[TAB_COLS];
 	int k = coeffs_key(j->in, &w->size, row);
-	if (j->ncarried)
-		memcpy(row + k + 6, w->size.carried, (size_t)j->ncarried * sizeof *row);
+	coeffs_carry(j->in, w, row + k + 6);
 	for (int i = 0; i < n; i++) {
 		double re1 = creal(r->s1[i]), im1 = cimag(r->s1[i]), re2 = creal(r->s2[i]), im2 = cimag(r->s2[i]);
 		row[k] = theta[i];
@@ -215,10 +214,10 @@ static void each(struct job *j, const char *output, const char *command)
 	cols[k] = phase_theta_col;
 	memcpy(cols + k + 1, amplitudes, sizeof amplitudes);
 	cols[k + 5] = phase_p_col;
-	j->ncarried = coeffs_carried(j->in, k + 6, cols, cols + k + 6);
+	int ncarried = coeffs_carried(j->in, k + 6, cols, cols + k + 6);
 	int more = coeffs_next(j->in, &next);
 	gather(j, &b, &next, &more);
-	j->out = tab_create(output, coeffs_history(j->in), command, k + 6 + j->ncarried, cols);
+	j->out = tab_create(output, coeffs_history(j->in), command, k + 6 + ncarried, cols);
 	for (; b.n; gather(j, &b, &next, &more))
 		if (j->n || !j->o->profile)
 			compute(j, &b);
