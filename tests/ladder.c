@@ -21,11 +21,13 @@ static double uniform(void)
 
 static double between(double a, double b) { return a * pow(b / a, uniform()); }
 
-/* Real above 1 and below, and absorbing, in equal shares. */
+/* Real above 1 and below, absorbing, and metals or foci of the central ray (n = 3, 5, 7), in equal shares. */
 static double complex index_of(int kind)
 {
-	double n = kind % 3 == 1 ? 0.4 + 0.59 * uniform() : 1.01 + 1.99 * uniform(), other = uniform();
-	if (kind % 3 < 2)
+	double n = kind % 4 == 1 ? 0.4 + 0.59 * uniform() : 1.01 + 1.99 * uniform(), other = uniform();
+	if (kind % 4 == 3)
+		return other < 0.2 ? 3 + 2 * (int)(3 * uniform()) : CMPLX(between(0.05, 30), between(0.05, 30));
+	if (kind % 4 < 2)
 		return n;
 	return CMPLX(other < 0.3 ? 0.4 + 0.59 * uniform() : n, between(1e-6, 1));
 }

@@ -100,7 +100,7 @@ static int phase(const void *context, struct waves *w, int n, const double *thet
 	return 0;
 }
 
-/* The threads' rays go with them, but for those of this one. */
+/* The rays of this thread; those of others are left to the system. */
 static void forget(void)
 {
 	for (int k = 0; k < KEPT; k++) {
@@ -111,8 +111,8 @@ static void forget(void)
 
 int main(int argc, char **argv)
 {
-	struct sizes_options sizes = SIZES_INIT;
-	struct phase_options angles = { .tolerance = 1e-3 };
+	static struct sizes_options sizes = SIZES_INIT;    /* static: the lists in it live as long as the process */
+	static struct phase_options angles = { .tolerance = 1e-3 };
 	struct model model = { GOA, 3 };
 	const char *output = NULL;
 	long long order = -1;

@@ -130,13 +130,17 @@ double cam_error(double x, double complex m)
 	double complex step = cabs(m - 1) < 1e-9 ? 1e-9 : m - 1, square = step * (m + 1);
 	double n = creal(m), lost = x * cimag(m), g = cbrt(2 / fmax(x, LEAST)), g2 = g * g, g6 = g2 * g2 * g2, n2 = cabs(square);
 	/* orders left out: of the edge, whose series fails where its root is small, and of the central ray, where x |m - 1| is */
-	double edge = 2 * g6 * (1 + 0.13 / (n2 * n2) + n2 / 4);
+	double edge = 2 * g6 * (1 + 0.13 / (n2 * n2) + n2 / 4 + n2 * n2 / 8);
 	double central = 0.25 * g6 * g2 * g * cabs(m * m / ((m + 1) * square * step * step)) * exp(-2 * lost);
 	/* what absorption leaves of resonances, whose peaks are ~ x^(-2/3), in two chords near the edge; or of the critical angle, where
 	 * chords are short */
 	double ring = n > 1 ? 0.36 * g2 * exp(-4 * lost * fmin(sqrt(n2) / n, 1)) :
 	              0.2 * pow(x, -0.7) / (1 + lost * lost / 25) + (lost > 0 ? 0.15 / x : 0);
-	return edge + central + ring + 5e-8;
+	/* the focus of a central ray, n near 2j + 1: on it the wave is as large as what is known of it */
+	double j = fmax(1, round((n - 1) / 2)), off = cabs(j - step / 2);
+	double focus = 6 * norm2(m / (m + 1)) * pow(norm2(step / (m + 1)), j) * exp(-(4 * j + 2) * lost) *
+		       fmin(1 / sqrt(x), 1 / (x * x * off * off * off));
+	return edge + central + ring + focus + 5e-8;
 }
 
 struct efficiencies cam_at(const struct cam *c, double x, int ripple)

@@ -248,8 +248,12 @@ int goa_measure(struct goa *g, double x, struct efficiencies *q, double *norm, d
 	q->sca = q->ext - q->abs;
 	q->g = *norm > 0 ? along / *norm : 0;
 	q->back = 4 * creal(s1 * conj(s1)) / (x * x);
-	/* What the rays leave out is first of all the edge, 1.9924 x^(-2/3) of extinction; and a ripple about a quarter of it. */
+	/* What the rays leave out is first of all the edge, 1.9924 x^(-2/3) of extinction, and a ripple about a quarter of it; of metals the
+	 * next term, (2/x) Im (m^2 + 1)/sqrt(m^2 - 1), is as large. */
+	double complex m2 = g->m * g->m;
 	double least = fmin(q->ext, q->sca), edge = 1.25 * 1.9924 * pow(x, -2.0 / 3);
+	if (cimag(m2) != 0)
+		edge += 3 / x * fabs(cimag((m2 + 1) / csqrt(m2 - 1)));
 	*error = least > 0 ? (edge + missing + glory(g, x)) / least : 1;
 	return 0;
 }

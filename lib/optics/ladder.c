@@ -163,11 +163,13 @@ static enum method choose(const struct rung *r, double x)
 
 static struct efficiencies geometrical(double x, double complex m, double *error)
 {
-	double ignored;
-	struct efficiencies rays = goa_efficiencies(x, m, GOA_ORDER, &ignored), q = goa_efficiencies(x, m, 1, error);
+	double memory;             /* infinite, as *error is, where that ran out */
+	struct efficiencies rays = goa_efficiencies(x, m, GOA_ORDER, &memory), q = goa_efficiencies(x, m, 1, error);
 	q.g = rays.g;
 	q.back = rays.back;
-	*error = 1.2 * *error + 0.01 * exp(-8 * x * cimag(m));      /* g lacks the light of four and more chords */
+	if (isinf(memory))
+		*error = memory;
+	*error = 1.2 * *error + 0.01 * fmax(1, creal(m) / 2) * exp(-8 * x * cimag(m));    /* g lacks the light of four and more chords */
 	return q;
 }
 
@@ -220,6 +222,7 @@ static int by_mie(int n, const double *x, const double complex *m, struct effici
 int ladder_many(struct ladder *l, int n, const double *x, const double complex *m, struct efficiencies *q, double *error,
                 enum method *used)
 {
+	int failed = 0;
 	for (int i = 0; i < n; i++)
 		used[i] = l->method;
 	if (l->method == METHOD_MIE)
@@ -230,9 +233,11 @@ int ladder_many(struct ladder *l, int n, const double *x, const double complex *
 		return -1;
 	for (int i = 0; i < n && l->method == METHOD_AUTO; i++)
 		used[i] = choose(slot(l->rung, l->room, m[i]), x[i]);
-#pragma omp parallel for schedule(dynamic, 16) if (n > 1)
+#pragma omp parallel for schedule(dynamic, 16) reduction(|:failed) if (n > 1)
 	for (int i = 0; i < n; i++)
-		if (used[i] != METHOD_MIE)
+		if (used[i] != METHOD_MIE) {
 			q[i] = one(slot(l->rung, l->room, m[i]), used[i], l->method == METHOD_CAM, x[i], &error[i]);
-	return by_mie(n, x, m, q, error, used);
+			failed |= isinf(error[i]) != 0;
+		}
+	return failed ? -1 : by_mie(n, x, m, q, error, used);
 }

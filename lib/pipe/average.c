@@ -265,8 +265,8 @@ static double settle(struct average *a)
 	for (size_t m = 0; m < a->nmean; m++) {
 		struct mean *mean = &a->mean[m];
 		double sum = 0, all = mean->points_weight + mean->weight;
-		if (!(all > 0))
-			die(path(a), "all weights are 0");
+		if (!(all > 0 && all < INFINITY))
+			die(path(a), all > 0 ? "the sum of weights is out of range" : "all weights are 0");
 		for (long i = 0; i < a->n; i++) {
 			double p = (mean->points[i] + mean->sum[i]) / all;
 			double width = (a->theta[i + 1 < a->n ? i + 1 : i] - a->theta[i ? i - 1 : 0]) / 2;

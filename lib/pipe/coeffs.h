@@ -44,7 +44,7 @@ const char *coeffs_read(const struct coeffs *c);
 /* coeffs_table - the table in use, NULL where the options give the sizes. */
 struct tab *coeffs_table(const struct coeffs *c);
 
-/* As of sizes: key columns and their values, carried columns and their values, history. */
+/* Key columns and their values, carried columns (as sizes_carried) and their values, cmd lines of the table ("" without one). */
 int coeffs_columns(const struct coeffs *c, struct tab_col *cols);
 int coeffs_carried(struct coeffs *c, int nown, const struct tab_col *own, struct tab_col *cols);
 void coeffs_carry(const struct coeffs *c, const struct waves *w, double *row);

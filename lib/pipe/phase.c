@@ -28,7 +28,6 @@ struct job {
 	phase_model *model;
 	const void *context;
 	struct tab_out *out;
-	int nkey;
 	int n;                    /* angles for all, 0: a grid for each size */
 	double *theta;
 };

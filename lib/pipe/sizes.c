@@ -164,12 +164,6 @@ struct sizes *sizes_over(const struct sizes_options *o, struct tab *table)
 	return s;
 }
 
-struct sizes *sizes_open(const struct sizes_options *o, const char *operand)
-{
-	sizes_require(o);    /* said before a table is waited for */
-	return sizes_over(o, sizes_input(o, operand));
-}
-
 int sizes_key_columns(int by_x, struct tab_col *cols)
 {
 	if (by_x) {
@@ -210,15 +204,11 @@ int sizes_carried_of(const struct tab *t, int nown, const struct tab_col *own, s
 	return n;
 }
 
-int sizes_columns(const struct sizes *s, struct tab_col *cols) { return sizes_key_columns(sizes_by_x(s), cols); }
-int sizes_key(const struct sizes *s, const struct size *size, double *row) { return sizes_key_values(sizes_by_x(s), size, row); }
-
 int sizes_carried(struct sizes *s, int nown, const struct tab_col *own, struct tab_col *cols)
 {
 	return s->ncarried = s->table ? sizes_carried_of(s->table, nown, own, cols, s->carried_col) : 0;
 }
 
-const char *sizes_history(const struct sizes *s) { return s->table ? tab_history(s->table) : ""; }
 int sizes_by_x(const struct sizes *s) { return s->x.n > 0; }
 
 /* What the size at hand is at wavelength i. */

@@ -78,33 +78,22 @@ struct tab *sizes_input(const struct sizes_options *o, const char *operand);
  * sizes_threads is done here too. */
 struct sizes *sizes_over(const struct sizes_options *o, struct tab *table);
 
-/* sizes_open - both at once, for tools that read nothing but sizes. */
-struct sizes *sizes_open(const struct sizes_options *o, const char *operand);
-
-/* sizes_columns - the key columns (wavelength, radius; or x) into cols; returns how many. */
-int sizes_columns(const struct sizes *s, struct tab_col *cols);
-
 /* sizes_carried - the carried columns of the table into cols, less those named in own[nown] (which the tool writes itself);
  * returns how many. Decides what size.carried holds. */
 int sizes_carried(struct sizes *s, int nown, const struct tab_col *own, struct tab_col *cols);
 
-/* The pieces of these that other readers use: the key columns and values by x or not, the carried columns of any table (their
- * indices into index[]). */
-int sizes_key_columns(int by_x, struct tab_col *cols);
-int sizes_key_values(int by_x, const struct size *size, double *row);
+/* sizes_carried_of - the same of any table, their indices into index[]. */
 int sizes_carried_of(const struct tab *t, int nown, const struct tab_col *own, struct tab_col *cols, int *index);
 
-/* sizes_history - cmd lines of the table, "" without one. */
-const char *sizes_history(const struct sizes *s);
+/* sizes_key_columns - the key columns (x, or wavelength, radius) into cols; sizes_key_values - their values into row. Return how many. */
+int sizes_key_columns(int by_x, struct tab_col *cols);
+int sizes_key_values(int by_x, const struct size *size, double *row);
 
 /* sizes_by_x - whether sizes are given by --size-parameter. */
 int sizes_by_x(const struct sizes *s);
 
 /* sizes_next - the next (size, wavelength); 0 at the end. */
 int sizes_next(struct sizes *s, struct size *out);
-
-/* sizes_key - put the values of the key columns into row; returns how many. */
-int sizes_key(const struct sizes *s, const struct size *size, double *row);
 
 void sizes_close(struct sizes *s);
 

@@ -82,7 +82,7 @@ FN iv phase_draw(const struct scene *s, const struct tables *t, mv m, int only, 
                  fv *value)
 {
 	iv shift = phase_row(t, m, only, class, PHASE_SHIFT);
-	uv column = u >> unsigned_of(shift), rest = u - (column << unsigned_of(shift));
+	uv column = SEL(m, u >> unsigned_of(shift), UV(0)), rest = u - (column << unsigned_of(shift));
 	iv entry = 2 * ((phase_row(t, m, only, class, PHASE_COLUMN) + signed_of(column)) * s->n_waves + hero_of(s, w, hero));
 	iv alias[2];
 	igather2(m, t->alias, entry, alias);
