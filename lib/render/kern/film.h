@@ -23,7 +23,6 @@ enum {
 #define SUM_OF(kind, channel) ((channel) ? SUM_GREEN + 3 * ((channel) - 1) + (kind) : (kind))
 
 #define FILM_MOST 2147483520.f      /* a sample's value is smaller in size */
-#define FILM_LIMIT ((int64)1 << 62)
 
 /* The integers nearest to v 2^30, halves away from 0. */
 FN l8 film_integers(f8 v)
@@ -33,12 +32,16 @@ FN l8 film_integers(f8 v)
 	return n + l8_of(2.f * (units - f8_of(n)));    /* the rest is exact: 0 from 2^24 on */
 }
 
-/* Adds eight to as many sums; returns what has its highest bit set where a sum passes its limit. */
+/* Bit 62 is set in the result where a sum passes its limit, 2^62 either way: bits 62 and 63 of it then differ. */
+FN l8 film_beyond(l8 sum) { return sum ^ sum >> 1; }
+#define FILM_BEYOND(bits) ((bits) >> 62 & 1)
+
+/* Adds eight to as many sums; returns where one passes its limit. */
 FN l8 film_add8(GLOBAL int64 *sum, l8 n)
 {
 	l8 all = l8_load(sum) + n;
 	l8_store(sum, all);
-	return (all + FILM_LIMIT) | (FILM_LIMIT - all);
+	return film_beyond(all);
 }
 
 /* Adds v^2 to sum[2], for |v| <= 2^61; returns what has its highest bit set where the sum is beyond 2^127. */
@@ -91,8 +94,8 @@ FN mv film_values(const struct scene *s, struct path *p, mv m, fv *value)
 	return bad;
 }
 
-/* Those of lane i added to its pixel, and the path's spectrum. The highest bit of any of *over or of what it returns is set where a
- * sum passes its limit. */
+/* Those of lane i added to its pixel, and the path's spectrum. *over: as film_beyond; the highest bit of what it returns is set where
+ * the sum of squares passes its own. */
 FN uint64 film_take(const struct scene *s, GLOBAL int64 *sum, const struct path *p, const fv *value, int i, l8 *over)
 {
 #define SIX(v) F8(LANE_FLOAT((v)[0], i), LANE_FLOAT((v)[1], i), LANE_FLOAT((v)[2], i), LANE_FLOAT((v)[3], i), \
@@ -107,7 +110,7 @@ FN uint64 film_take(const struct scene *s, GLOBAL int64 *sum, const struct path 
 		float v = LANE_FLOAT(p->spectrum[j], i);
 		l8 all = film_integers(F8(v, v, v, v, v, v, v, v)) + *own;
 		*own = PART(all, 0);
-		*over |= (all + FILM_LIMIT) | (FILM_LIMIT - all);
+		*over |= film_beyond(all);
 	}
 	(void)i;                   /* of one lane, unused */
 	return high;

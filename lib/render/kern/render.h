@@ -82,7 +82,7 @@ FN void render_pixels(const struct scene *s, const struct tables *t, GLOBAL int6
 		over = NO_LANE;
 	}
 	EACH(k, 8)
-		if (any(bad) || square >> 63 || PART(high, k) < 0)
+		if (any(bad) || square >> 63 || FILM_BEYOND(PART(high, k)))
 			*overflow = 1;
 }
 
