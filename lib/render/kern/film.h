@@ -32,14 +32,15 @@ FN l8 film_integers(f8 v)
 	return n + l8_of(2.f * (units - f8_of(n)));    /* the rest is exact: 0 from 2^24 on */
 }
 
-/* Bit 62 is set in the result where a sum passes its limit, 2^62 either way: bits 62 and 63 of it then differ. */
+/* Bit 62 is set in the result where a sum passes its limit, 2^62 either way: bits 62 and 63 of it then differ. A sample adds less than
+ * half of that, so that this is seen before a sum wraps. */
 FN l8 film_beyond(l8 sum) { return sum ^ sum >> 1; }
 #define FILM_BEYOND(bits) ((bits) >> 62 & 1)
 
 /* Adds eight to as many sums; returns where one passes its limit. */
 FN l8 film_add8(GLOBAL int64 *sum, l8 n)
 {
-	l8 all = l8_load(sum) + n;
+	l8 all = l8_sum(l8_load(sum), n);
 	l8_store(sum, all);
 	return film_beyond(all);
 }
@@ -108,7 +109,7 @@ FN uint64 film_take(const struct scene *s, GLOBAL int64 *sum, const struct path 
 	for (int j = 0; SPECTRAL && j < LANE(p->waves.n, i); j++) {
 		GLOBAL int64 *own = sum + FILM_SUMS + LANE(p->waves.first, i) + s->n_groups * j;
 		float v = LANE_FLOAT(p->spectrum[j], i);
-		l8 all = film_integers(F8(v, v, v, v, v, v, v, v)) + *own;
+		l8 all = l8_sum(film_integers(F8(v, v, v, v, v, v, v, v)), L8(*own, 0, 0, 0, 0, 0, 0, 0));
 		*own = PART(all, 0);
 		*over |= film_beyond(all);
 	}

@@ -104,6 +104,7 @@ typedef float8 f8;
 typedef long8 l8;
 FN l8 l8_of(f8 x) { return convert_long8_rtz(x); }
 FN f8 f8_of(l8 x) { return convert_float8(x); }
+FN l8 l8_sum(l8 a, l8 b) { return as_long8(as_ulong8(a) + as_ulong8(b)); }    /* may wrap */
 #if LANES > 1
 /* Loaded and stored whole: vstore8 may be two halves, for which a load that soon follows waits. */
 typedef long8 __attribute__((aligned(8))) l8_anywhere;
@@ -191,6 +192,8 @@ typedef float f8 __attribute__((vector_size(32)));
 typedef int64 l8 __attribute__((vector_size(64)));
 FN l8 l8_of(f8 x) { return __builtin_convertvector(x, l8); }
 FN f8 f8_of(l8 x) { return __builtin_convertvector(x, f8); }
+typedef uint64 ul8 __attribute__((vector_size(64)));
+FN l8 l8_sum(l8 a, l8 b) { return (l8)((ul8)a + (ul8)b); }    /* may wrap */
 FN l8 l8_load(const int64 *p) { l8 x; memcpy(&x, p, sizeof x); return x; }
 FN void l8_store(int64 *p, l8 x) { memcpy(p, &x, sizeof x); }
 #define PART(v, i) (v)[i]
