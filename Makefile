@@ -6,11 +6,14 @@ CFLAGS  = -O2 -g
 LDFLAGS =
 
 B = build
-PACKAGES = gcc libc6-dev make pkg-config libopenexr-dev libimath-dev libpng-dev zlib1g-dev libconfig-dev \
-	ocl-icd-opencl-dev opencl-headers pocl-opencl-icd oclgrind mandoc openimageio-tools perl git
-BENCH_PACKAGES = gnuplot-nox
 
-OWN_CFLAGS = -std=c11 -D_GNU_SOURCE -DMOTES_VERSION='"$(VERSION)"' -DCL_TARGET_OPENCL_VERSION=120 -Ilib -ffp-contract=off -fno-math-errno -Wno-psabi \
+# Debian's packages, by what needs them.
+PACKAGES_all   = gcc libc6-dev make pkg-config libopenexr-dev libimath-dev libpng-dev zlib1g-dev libconfig-dev \
+	ocl-icd-opencl-dev opencl-headers
+PACKAGES_check = pocl-opencl-icd oclgrind mandoc openimageio-tools perl git gnuplot-nox
+PACKAGES_bench = pocl-opencl-icd perl gnuplot-nox
+
+OWN_CFLAGS = -std=c11 -D_GNU_SOURCE -DMOTES_VERSION='"$(VERSION)"' -DCL_TARGET_OPENCL_VERSION=120 -Ilib -I$(B) -ffp-contract=off -fno-math-errno -Wno-psabi \
 	-fopenmp -Wall -Wextra -Wshadow -Wmissing-prototypes
 OWN_LDFLAGS = -fopenmp -Wl,--as-needed
 LIBS = -lOpenEXRCore -lpng -lz -lconfig -lOpenCL -lm
@@ -20,32 +23,48 @@ EXR_CFLAGS = $(shell pkg-config --cflags OpenEXR)    # asked for when used: make
 TOOLS = $(patsubst tools/%.c,%,$(wildcard tools/*.c))
 CHECKS = $(patsubst tests/%.c,%,$(wildcard tests/*.c))
 GENERATED = materials kernels
-OBJECTS = $(patsubst lib/%.c,obj/%.o,$(filter-out lib/render/lanes.c $(LOOPS:%=lib/optics/%_lanes.c),$(wildcard lib/*/*.c))) \
-	$(GENERATED:%=obj/gen/%.o) $(LANE_OBJECTS) $(LOOP_OBJECTS)
+OBJECTS = $(patsubst lib/%.c,obj/%.o,$(filter-out lib/render/kernels_c.c $(LOOPS),$(wildcard lib/*/*.c lib/*/*/*.c))) \
+	$(GENERATED:%=obj/gen/%.o) $(KERNEL_OBJECTS) $(LOOP_OBJECTS)
 
-# The renderer's kernels, for each processor, transport and number of wavelengths and of channels (0: any, and spectral; p: with a peak):
-# LANES and the instructions.
-CPUS = scalar $(if $(filter x86_64,$(shell uname -m)),v2 v3 v4)
-LANES_scalar = -DLANES=1
-LANES_v2 = -DLANES=4 -march=x86-64-v2
-LANES_v3 = -DLANES=8 -march=x86-64-v3
-LANES_v4 = -DLANES=16 -march=x86-64-v4 -mprefer-vector-width=512
-LANE_OBJECTS = $(foreach cpu,$(CPUS),$(foreach t,0 1 2 3,$(foreach w,0 1 3 1p 3p,obj/render/lanes/$(cpu)_$(t)_$(w).o)))
-lane_flags = -g1 -Wno-unused-parameter $(LANES_$(word 1,$(1))) -DRENDER=render_$(subst $(space),_,$(1)) -DTRANSPORT=$(word 2,$(1)) \
-	$(if $(filter-out 0,$(word 3,$(1))),-DWAVES=$(subst p,,$(word 3,$(1))) -DCHANNELS=$(subst p,,$(word 3,$(1))) -DSPECTRAL=0 -DPEAK=$(if $(findstring p,$(word 3,$(1))),1,0))
-space = $(subst ,, )
-# Loops of lib/optics in doubles, lib/optics/*_lanes.c, for each processor. GOA's: without -fno-tree-slp-vectorize gcc contracts complex products
+# The processors that loops are built for: the one at hand and plain C, or all of its family (make CPUS=all), which then goes for later
+# makes here, too (until make CPUS=native).
+CPUS = $(or $(shell sed -n 's,^/\* \(.*\) \*/$$,\1,p' $(B)/gen/cpu_builds.h 2>/dev/null),native)
+ALL_CPUS = scalar $(if $(filter x86_64,$(shell uname -m)),v2 v3 v4)
+NATIVE = $(shell $(CC) -march=native -dM -E -x c /dev/null 2>/dev/null | awk '{ has[$$2] = 1 } END { \
+	print has["__AVX512BW__"] && has["__AVX512DQ__"] && has["__AVX512VL__"] && has["__AVX512CD__"] ? "v4" : \
+	has["__AVX2__"] && has["__BMI2__"] && has["__FMA__"] ? "v3" : has["__SSE4_2__"] && has["__POPCNT__"] ? "v2" : "" }')
+BUILT := $(filter $(if $(filter all,$(CPUS)),$(ALL_CPUS),scalar $(subst native,$(NATIVE),$(CPUS))),$(ALL_CPUS))
+
+# The renderer's kernels, for each processor and number of wavelengths and channels (any: spectral ones, too): LANES and the instructions.
+FLOATS_scalar = -DLANES=1
+FLOATS_v2 = -DLANES=4 -march=x86-64-v2
+FLOATS_v3 = -DLANES=8 -march=x86-64-v3
+FLOATS_v4 = -DLANES=16 -march=x86-64-v4 -mprefer-vector-width=512
+WAVES_any =
+WAVES_1 = -DWAVES=1 -DCHANNELS=1 -DSPECTRAL=0
+WAVES_3 = -DWAVES=3 -DCHANNELS=3 -DSPECTRAL=0
+KERNEL_OBJECTS = $(foreach cpu,$(BUILT),$(foreach w,any 1 3,obj/render/kernels_c/$(w)_$(cpu).o))
+
+# Loops of lib/optics in doubles, *_lanes.c, for each processor. GOA's: without -fno-tree-slp-vectorize gcc contracts complex products
 # whatever -ffp-contract says.
-LOOPS = mie goa series
+LOOPS = $(wildcard lib/optics/*/*_lanes.c)
 DOUBLES_scalar = -DLANES=1
 DOUBLES_v2 = -DLANES=2 -march=x86-64-v2
 DOUBLES_v3 = -DLANES=4 -march=x86-64-v3
 DOUBLES_v4 = -DLANES=8 -march=x86-64-v4 -mprefer-vector-width=512
-FLAGS_mie = -funroll-loops
-FLAGS_goa = -O3 -fno-trapping-math -fcx-limited-range -fno-tree-slp-vectorize
-FLAGS_series = -O3
-LOOP_OBJECTS = $(foreach loop,$(LOOPS),$(CPUS:%=obj/optics/$(loop)_lanes/%.o))
+FLAGS_mie_lanes = -funroll-loops
+FLAGS_goa_lanes = -O3 -fno-trapping-math -fcx-limited-range -fno-tree-slp-vectorize
+FLAGS_legendre_series_lanes = -O3
+LOOP_OBJECTS = $(foreach loop,$(LOOPS:lib/%.c=%),$(BUILT:%=obj/$(loop)/%.o))
 MAN = $(wildcard man/*.[1-9])
+
+# As many jobs as there are cores, unless told otherwise; a line a file, or with V=1 its command.
+ifeq ($(filter -j%,$(MAKEFLAGS)),)
+MAKEFLAGS += -j$(shell nproc 2>/dev/null || echo 2)
+endif
+say = $(if $(V),,@echo '  $(1)';)
+space = $(subst ,, )
+comma = ,
 
 all: programs
 programs: $(TOOLS:%=$(B)/bin/%)
@@ -53,54 +72,85 @@ asan-programs: $(TOOLS:%=$(B)/asan/bin/%)
 
 # One set of rules for each way to build: $(1) is the folder, $(2) further flags.
 define variant
-$(1)/obj/%.o: lib/%.c
+$(1)/obj/%.o: lib/%.c | $(B)/gen/cpu_builds.h
 	@mkdir -p $$(@D)
-	$$(CC) $$(OWN_CFLAGS) $$(EXR_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -c -o $$@ $$<
-$(addprefix $(1)/,$(LANE_OBJECTS)): $(1)/obj/render/lanes/%.o: lib/render/lanes.c
+	$$(call say,CC $$<)$$(CC) $$(OWN_CFLAGS) $$(EXR_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -c -o $$@ $$<
+$(addprefix $(1)/,$(KERNEL_OBJECTS)): $(1)/obj/render/kernels_c/%.o: lib/render/kernels_c.c | $(B)/gen/cpu_builds.h
 	@mkdir -p $$(@D)
-	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-O3) $$(call lane_flags,$$(subst _, ,$$*)) -MMD -MP -c -o $$@ $$<
-$(foreach loop,$(LOOPS),$(CPUS:%=$(1)/obj/optics/$(loop)_lanes/%.o): $(1)/obj/optics/$(loop)_lanes/%.o: lib/optics/$(loop)_lanes.c
+	$$(call say,CC $$@)$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-O3) -g1 -Wno-unused-parameter $$(FLOATS_$$(word 2,$$(subst _, ,$$*))) \
+		$$(WAVES_$$(word 1,$$(subst _, ,$$*))) -DRENDER=render_$$* -MMD -MP -c -o $$@ $$<
+$(foreach loop,$(LOOPS),$(BUILT:%=$(1)/$(loop:lib/%.c=obj/%)/%.o): $(1)/$(loop:lib/%.c=obj/%)/%.o: $(loop) | $(B)/gen/cpu_builds.h
 	@mkdir -p $$(@D)
-	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $$(FLAGS_$(loop)) $(if $(2),$(2) -O1) $$(DOUBLES_$$*) -DBUILD=$(loop)_lanes_$$* -MMD -MP -c -o $$@ $$<
+	$$(call say,CC $$@)$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $$(FLAGS_$(basename $(notdir $(loop)))) $(if $(2),$(2) -O1) $$(DOUBLES_$$*) \
+		-DBUILD=$(basename $(notdir $(loop)))_$$* -MMD -MP -c -o $$@ $$<
 )
-$(1)/obj/gen/%.o: $(B)/gen/%.c
+$(1)/obj/gen/%.o: $(B)/gen/%.c | $(B)/gen/cpu_builds.h
 	@mkdir -p $$(@D)
-	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -c -o $$@ $$<
+	$$(call say,CC $$<)$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -c -o $$@ $$<
 $(1)/libmotes.a: $(addprefix $(1)/,$(OBJECTS))
-	rm -f $$@
-	$$(AR) rcs $$@ $$^
+	@rm -f $$@
+	$$(call say,AR $$@)$$(AR) rcs $$@ $$^
 $(1)/bin/%: tools/%.c $(1)/libmotes.a
 	@mkdir -p $$(@D)
-	$$(CC) $$(OWN_CFLAGS) $$(EXR_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -MF $$@.d $$(OWN_LDFLAGS) $$(LDFLAGS) -o $$@ $$< $(1)/libmotes.a $$(LIBS)
+	$$(call say,LD $$@)$$(CC) $$(OWN_CFLAGS) $$(EXR_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -MF $$@.d $$(OWN_LDFLAGS) $$(LDFLAGS) -o $$@ $$< $(1)/libmotes.a $$(LIBS)
 $(1)/tests/%: tests/%.c $(1)/libmotes.a
 	@mkdir -p $$(@D)
-	$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -MF $$@.d $$(OWN_LDFLAGS) $$(LDFLAGS) -o $$@ $$< $(1)/libmotes.a $$(LIBS)
+	$$(call say,LD $$@)$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -MF $$@.d $$(OWN_LDFLAGS) $$(LDFLAGS) -o $$@ $$< $(1)/libmotes.a $$(LIBS)
 endef
 $(eval $(call variant,$(B),))
 $(eval $(call variant,$(B)/asan,$(ASAN)))
 
 # Tables of data/materials and the kernels' text become C, so that a program needs no files beside it.
-$(B)/gen/materials.c: lib/optics/materials.awk $(wildcard data/materials/*.tsv)
+$(B)/gen/materials.c: lib/optics/index/materials.awk $(wildcard data/materials/*.tsv)
 	@mkdir -p $(@D)
-	awk -f $^ >$@.new && mv $@.new $@
-$(B)/gen/kernels.c: lib/render/embed.awk lib/render/kern/sources $(wildcard lib/render/kern/*.h lib/render/kern/*.cl)
+	@awk -f $^ >$@.new && mv $@.new $@
+$(B)/gen/kernels.c: lib/render/kernels_text.awk lib/render/kern/sources $(wildcard lib/render/kern/*.h lib/render/kern/*.cl)
 	@mkdir -p $(@D)
-	awk -f $< $$(sed 's,^,lib/render/kern/,' lib/render/kern/sources) >$@.new && mv $@.new $@
+	@awk -f $< $$(sed 's,^,lib/render/kern/,' lib/render/kern/sources) >$@.new && mv $@.new $@
 
-# Everything that building, the demo, the tests and the benchmarks need, from Debian's own packages.
+LEVEL_scalar = SCALAR
+LEVEL_v2 = V2
+LEVEL_v3 = V3
+LEVEL_v4 = V4
+# Which builds there are, for lib/base/cpu.h; written anew where CPUS asks for others.
+define CPU_BUILDS
+/* $(BUILT) */
+#define CPU_BUILT (0 $(foreach cpu,$(BUILT),| 1 << CPU_$(LEVEL_$(cpu))))
+#define CPU_BUILDS(name) { $(foreach cpu,$(BUILT),[CPU_$(LEVEL_$(cpu))] = name##_$(cpu),) }
+#define CPU_DECLARE(type, name) extern type $(subst $(space),$(comma) ,$(BUILT:%=name##_%))
+endef
+export CPU_BUILDS
+$(B)/gen/cpu_builds.h: always
+	@mkdir -p $(@D)
+	@printf '%s\n' "$$CPU_BUILDS" | cmp -s - $@ || printf '%s\n' "$$CPU_BUILDS" >$@
+
+# ---- packages
+
+# make deps GOAL..: first what the goals need of Debian's packages, then the goals by a make of its own, and how long each took.
+GOALS = $(or $(filter-out deps,$(MAKECMDGOALS)),all)
+PACKAGES = $(sort $(foreach goal,all $(GOALS),$(PACKAGES_$(patsubst bench-%,bench,$(goal)))))
+ifneq ($(filter deps,$(MAKECMDGOALS)),)
+.NOTPARALLEL:
 deps:
-	@missing=$$(dpkg-query -W -f '$${db:Status-Status} $${Package}\n' $(PACKAGES) $(BENCH_PACKAGES) 2>&1 | grep -v '^installed '); \
-	[ -n "$$missing" ] || exit 0; \
-	if ! command -v apt-get >/dev/null; then echo 'make deps: no apt-get here; install by hand: $(PACKAGES) $(BENCH_PACKAGES)' >&2; exit 1; fi; \
+	@begun=$$(date +%s); \
+	missing=$$(dpkg-query -W -f '$${db:Status-Status} $${Package}\n' $(PACKAGES) 2>&1 | sed -n '/^installed /d; s/^[a-z-]* \([^ ]*\)$$/\1/p; s/.*no packages found matching //p' | paste -sd' ' -); \
+	if [ -z "$$missing" ]; then echo 'make deps: all packages are here'; exit 0; fi; \
+	if ! command -v apt-get >/dev/null; then echo "make deps: no apt-get here; install by hand: $$missing" >&2; exit 1; fi; \
 	if [ "$$(id -u)" = 0 ]; then as=; elif command -v sudo >/dev/null; then as='sudo'; \
-	else echo 'make deps: needs root or sudo; install by hand: $(PACKAGES) $(BENCH_PACKAGES)' >&2; exit 1; fi; \
+	else echo "make deps: needs root or sudo; install by hand: $$missing" >&2; exit 1; fi; \
+	echo "make deps: installing for $(GOALS): $$missing"; \
 	apt='apt-get -q -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3'; \
-	$$as $$apt update && $$as env DEBIAN_FRONTEND=noninteractive $$apt install -y --no-install-recommends $(PACKAGES) $(BENCH_PACKAGES)
-
-check: programs $(CHECKS:%=$(B)/tests/%)
-	MOTES_BUILD=$(B) sh tests/run
-asan: asan-programs $(CHECKS:%=$(B)/asan/tests/%)
-	MOTES_BUILD=$(B)/asan sh tests/run
+	$$as $$apt update && $$as env DEBIAN_FRONTEND=noninteractive $$apt install -y --no-install-recommends $$missing && \
+	echo "make deps: packages took $$(($$(date +%s) - begun)) s"
+$(filter-out deps,$(MAKECMDGOALS)): deps
+	@begun=$$(date +%s); $(MAKE) --no-print-directory $(if $(filter check,$@),CPUS=all check-programs,programs) && built=$$(date +%s) && $(MAKE) --no-print-directory $@ && \
+	echo "make deps: programs took $$((built - begun)) s, $@ $$(($$(date +%s) - built)) s"
+else
+# The tests compare the builds of all processors.
+check: ; @$(MAKE) --no-print-directory CPUS=all check-programs && MOTES_BUILD=$(B) sh tests/run
+check-programs: programs $(CHECKS:%=$(B)/tests/%)
+asan: ; @$(MAKE) --no-print-directory CPUS=all asan-check-programs && MOTES_BUILD=$(B)/asan sh tests/run
+asan-check-programs: asan-programs $(CHECKS:%=$(B)/asan/tests/%)
 
 demo: programs
 	@mkdir -p $(B)/demo
@@ -138,9 +188,8 @@ install: programs
 clean:
 	rm -rf $(B)
 
-.PHONY: all programs asan-programs deps check asan demo bench charts bench-render bench-mie bench-xsect install clean
-.SECONDARY:
-ifneq ($(filter deps,$(MAKECMDGOALS)),)
-.NOTPARALLEL:
 endif
+
+.PHONY: all programs asan-programs check-programs asan-check-programs deps check asan demo bench charts bench-render bench-mie bench-xsect install clean always
+.SECONDARY:
 -include $(shell find $(B) -name '*.d' 2>/dev/null)

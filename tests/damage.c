@@ -4,8 +4,8 @@
  *
  * DAMAGE=all in the environment tries every bit for every reader (minutes). To add a tool, add a row to readers[]. */
 #include "base/die.h"
-#include "base/tab.h"
-#include "image/exr.h"
+#include "format/tab.h"
+#include "format/exr.h"
 #include "tap.h"
 
 #include <fcntl.h>

@@ -1,7 +1,7 @@
 /* The film's integers are exact. With an argument, a spectral image: how far its red, green and blue are from the colours of its
  * wavelengths (used by film.t). */
 #include "base/die.h"
-#include "image/exr.h"
+#include "format/exr.h"
 #include "render/colour.h"
 #include "render/kern/film.h"
 #include "tap.h"

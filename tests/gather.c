@@ -1,9 +1,9 @@
 /* The kernels' gathering of particles: the grid misses none, flights agree with the transmittance, and Poisson particles transmit
  * as they must. With the argument "table": mean transmittance against C / A, for the chart. */
 #include "base/die.h"
-#include "medium/grid.h"
-#include "render/job.h"
-#include "render/kern/medium.h"
+#include "medium/particle_grid.h"
+#include "render/scene_setup.h"
+#include "render/kern/volume.h"
 #include "tap.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* Each order of rays against the same order of the Debye series, amplitude and phase, where rays hold: away from the edge,
  * the rainbows and the ends of the orders. */
-#include "optics/goa.h"
+#include "optics/goa/goa.h"
 
 #include "sphere.h"
 #include "tap.h"

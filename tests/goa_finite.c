@@ -1,7 +1,7 @@
 /* Whatever one asks, the answer is a number: random sizes, indices and angles, with the caustics and axes among them. */
-#include "optics/goa.h"
-#include "optics/goa_plus.h"
-#include "optics/rays.h"
+#include "optics/goa/goa.h"
+#include "optics/goa/goa_plus.h"
+#include "optics/goa/rays.h"
 
 #include "tap.h"
 

@@ -1,5 +1,5 @@
 /* GOA against Lorenz-Mie: phase functions in L1, efficiencies, and the error that goa_efficiencies claims. */
-#include "optics/goa.h"
+#include "optics/goa/goa.h"
 
 #include "sphere.h"
 #include "tap.h"

@@ -1,9 +1,9 @@
 /* What GOA+ is made of: Airy functions, sums of exponentials, windows, rays to second order. */
-#include "optics/airy.h"
-#include "optics/edge.h"
-#include "optics/order.h"
-#include "optics/rays.h"
-#include "optics/spectrum.h"
+#include "optics/numerics/airy.h"
+#include "optics/goa/goa_plus_edge.h"
+#include "optics/goa/debye_order.h"
+#include "optics/goa/rays.h"
+#include "optics/numerics/nufft.h"
 
 #include "sphere.h"
 #include "tap.h"

@@ -1,9 +1,9 @@
 /* GOA+ against Lorenz-Mie: phase functions in L1 and angle by angle, efficiencies, and the error that goa_plus_error claims.
  * With --bench, L1 and time of GOA, GOA+ and Mie's direct sum as lines for a chart. */
-#include "optics/gauss.h"
-#include "optics/goa.h"
-#include "optics/goa_plus.h"
-#include "optics/mie.h"
+#include "optics/numerics/gauss.h"
+#include "optics/goa/goa.h"
+#include "optics/goa/goa_plus.h"
+#include "optics/mie/mie.h"
 
 #include "tap.h"
 

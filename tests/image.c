@@ -1,6 +1,6 @@
 /* What lib/image writes, it reads back to the bit; and what it wrote does not depend on the order of things. */
 #include "base/die.h"
-#include "image/exr.h"
+#include "format/exr.h"
 #include "tap.h"
 
 #include <stdlib.h>

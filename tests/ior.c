@@ -1,5 +1,5 @@
 /* Refractive indices: what is parsed, what is refused, and the tables against published values and formulas. */
-#include "optics/ior.h"
+#include "optics/index/ior.h"
 #include "tap.h"
 
 #include <math.h>

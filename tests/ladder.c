@@ -1,6 +1,6 @@
 /* The ladder of methods against Lorenz-Mie theory: estimates of error are honest, auto keeps its tolerance, limits, sound numbers.
  * ladder --honest N: the shares of N random spheres a method and a tolerance where the truth is worse, as a table. */
-#include "optics/ladder.h"
+#include "optics/select/method.h"
 #include "tap.h"
 
 #include <math.h>

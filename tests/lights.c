@@ -1,8 +1,8 @@
 /* Lights as the kernels have them: a map is drawn as tabulated and found where it is drawn; quads close a box. */
 #include "base/die.h"
-#include "image/exr.h"
+#include "format/exr.h"
 #include "render/kern/film.h"
-#include "render/map.h"
+#include "render/envmap.h"
 #include "tap.h"
 
 #include <math.h>

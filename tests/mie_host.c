@@ -1,8 +1,8 @@
 /* Lorenz-Mie theory in a host that absorbs: reference values, the limit of a clear host, and every corner of its domain. */
-#include "optics/mie_host.h"
+#include "optics/mie/mie_host.h"
 
 #include "csv.h"
-#include "optics/angles.h"
+#include "optics/phase/angle_grid.h"
 #include "quadrature.h"
 #include "tap.h"
 

@@ -1,8 +1,8 @@
 /* Lorenz-Mie within itself: conservation, normalisation, limits, and every corner of its domain. */
-#include "optics/angles.h"
+#include "optics/phase/angle_grid.h"
 #define LANES 1
 #define UNROLL 1
-#include "optics/vec_sincos.h"
+#include "optics/numerics/vec_sincos.h"
 
 #include "quadrature.h"
 #include "tap.h"

@@ -1,6 +1,6 @@
 /* Efficiencies of random spheres are finite and physical, however large. The counts of a test are small; --full takes 10^6, 10^4 and 100
  * spheres (minutes; under UBSan with make build/asan/tests/mie_random), the measure of a change to the recurrences. */
-#include "optics/mie_lanes.h"
+#include "optics/mie/mie_lanes.h"
 #include "tap.h"
 
 #include <math.h>

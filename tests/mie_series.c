@@ -1,7 +1,8 @@
 /* All angles at once against sums in higher precision, and the angles chosen by a phase function against that function. */
-#include "optics/angles.h"
-#include "optics/kern/fourier.h"
-#include "optics/mie_series.h"
+#include "base/cpu.h"
+#include "optics/phase/angle_grid.h"
+#include "optics/numerics/kern/fourier.h"
+#include "optics/mie/mie_fast_amplitudes.h"
 
 #include "tap.h"
 #include "waves.h"
@@ -141,14 +142,15 @@ static void oracle(void)
 /* The same bits whatever other angles are asked for, and on every processor. */
 static void independence(void)
 {
-	static const char *const cpu[] = { "scalar", "v2", "v3", "v4" };
 	struct waves w = waves(700, 1.4 + 0.001 * I);
 	double theta[501];
 	double complex s[2][501], one[2], other[2][501];
 	angles_equal(501, theta);
 	int same = 1, alone = 1;
-	for (int c = 0; c < 4; c++) {
-		setenv("MOTES_CPU", cpu[c], 1);
+	for (int c = 0; c < CPU_LEVELS; c++) {
+		if (!cpu_has(c))
+			continue;
+		setenv("MOTES_CPU", cpu_name(c), 1);
 		struct series *series = mie_series(w.n, w.a, w.b);
 		if (!series)
 			exit(2);

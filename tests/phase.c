@@ -1,6 +1,6 @@
 /* Tabulated phase functions: integrals, the CDF, and directions drawn exactly by them. */
-#include "optics/phase.h"
-#include "render/angles.h"
+#include "optics/phase/phase.h"
+#include "render/phase_sampler.h"
 #include "render/kern/phase.h"
 #include "render/kern/random.h"
 #include "tap.h"

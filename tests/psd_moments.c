@@ -1,5 +1,5 @@
 /* Size classes against an independent quadrature (Simpson's rule in long double) of the distributions as they are defined. */
-#include "optics/psd.h"
+#include "optics/sizes/psd.h"
 #include "tap.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 #ifndef TESTS_WAVES_H
 #define TESTS_WAVES_H
 
-#include "optics/mie.h"
+#include "optics/mie/mie.h"
 
 #include <stdlib.h>
 

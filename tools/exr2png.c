@@ -1,8 +1,8 @@
 /* exr2png - a picture to look at: linear light to sRGB. */
 #include "base/die.h"
 #include "base/opt.h"
-#include "image/exr.h"
-#include "image/png.h"
+#include "format/exr.h"
+#include "format/png.h"
 
 #include <math.h>
 #include <stdlib.h>

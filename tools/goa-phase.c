@@ -1,8 +1,8 @@
 /* goa-phase - scattering amplitudes and phase functions of large spheres by geometrical optics. */
 #include "base/die.h"
-#include "optics/goa.h"
-#include "optics/goa_plus.h"
-#include "pipe/phase.h"
+#include "optics/goa/goa.h"
+#include "optics/goa/goa_plus.h"
+#include "toolkit/phase_table.h"
 
 #include <math.h>
 #include <stdlib.h>

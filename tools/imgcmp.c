@@ -2,8 +2,8 @@
 #include "base/die.h"
 #include "base/opt.h"
 #include "base/out.h"
-#include "base/tab.h"
-#include "image/exr.h"
+#include "format/tab.h"
+#include "format/exr.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,11 +1,11 @@
 /* medium-bake - particles, or a size distribution with a concentration, and their optics become a medium file. */
 #include "base/die.h"
 #include "base/opt.h"
-#include "base/tab.h"
-#include "medium/fill.h"
-#include "medium/grid.h"
-#include "medium/optics.h"
-#include "medium/voxels.h"
+#include "format/tab.h"
+#include "medium/bake.h"
+#include "medium/particle_grid.h"
+#include "medium/classes.h"
+#include "medium/particle_counts.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* mie-coeffs - partial-wave coefficients of spheres by Lorenz-Mie theory. */
 #include "base/die.h"
-#include "pipe/coeffs.h"
+#include "toolkit/coeffs.h"
 
 #include <string.h>
 

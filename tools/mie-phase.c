@@ -1,8 +1,8 @@
 /* mie-phase - scattering amplitudes and phase functions of spheres by Lorenz-Mie theory. */
 #include "base/die.h"
-#include "optics/goa_plus.h"
-#include "optics/mie_series.h"
-#include "pipe/phase.h"
+#include "optics/goa/goa_plus.h"
+#include "optics/mie/mie_fast_amplitudes.h"
+#include "toolkit/phase_table.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* particles - place the particles of a size distribution at random. */
 #include "base/die.h"
-#include "base/npy.h"
+#include "format/npy.h"
 #include "base/opt.h"
-#include "base/tab.h"
+#include "format/tab.h"
 #include "medium/density.h"
 #include "medium/rng.h"
 

@@ -1,8 +1,8 @@
 /* psd - a particle size distribution as a table of classes. */
 #include "base/die.h"
 #include "base/opt.h"
-#include "base/tab.h"
-#include "optics/psd.h"
+#include "format/tab.h"
+#include "optics/sizes/psd.h"
 
 #include <float.h>
 #include <math.h>

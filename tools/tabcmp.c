@@ -2,7 +2,7 @@
 #include "base/die.h"
 #include "base/opt.h"
 #include "base/out.h"
-#include "base/tab.h"
+#include "format/tab.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* txttab - text to a table: what tabtxt prints, read back. */
 #include "base/die.h"
 #include "base/opt.h"
-#include "base/tab.h"
+#include "format/tab.h"
 
 #include <errno.h>
 #include <math.h>

@@ -2,9 +2,9 @@
 #include "base/die.h"
 #include "base/opt.h"
 #include "base/out.h"
-#include "base/tab.h"
+#include "format/tab.h"
 #include "render/image.h"
-#include "render/job.h"
+#include "render/scene_setup.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* xsect - cross sections and asymmetry parameter of spheres. */
 #include "base/die.h"
-#include "optics/ladder.h"
-#include "pipe/coeffs.h"
+#include "optics/select/method.h"
+#include "toolkit/coeffs.h"
 
 #include <math.h>
 #include <stdio.h>

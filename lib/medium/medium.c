@@ -2,8 +2,8 @@
 
 #include "base/die.h"
 #include "base/out.h"
-#include "medium/grid.h"
-#include "medium/voxels.h"
+#include "medium/particle_grid.h"
+#include "medium/particle_counts.h"
 
 #include <fcntl.h>
 #include <math.h>

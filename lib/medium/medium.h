@@ -31,7 +31,7 @@ struct medium {
 	int32_t voxels[3];              /* of the finest level of cubes that count particles, or the nodes of the density */
 	double voxel;                   /* m, side of these cubes */
 	size_t n_voxel_count;
-	uint32_t *voxel_count;          /* [level][voxel][class], finest level first; see voxels.h */
+	uint32_t *voxel_count;          /* [level][voxel][class], finest level first; see particle_counts.h */
 	size_t n_density;
 	float *density;                 /* [z][y][x] relative density of a medium without particles, see density.h */
 	double matter;                  /* m^3, integral of the density over the medium */

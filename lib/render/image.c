@@ -1,7 +1,7 @@
 #include "render/image.h"
 
 #include "base/die.h"
-#include "base/tab.h"
+#include "format/tab.h"
 #include "base/unit.h"
 #include "render/kern/film.h"
 

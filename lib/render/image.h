@@ -3,8 +3,8 @@
 #ifndef RENDER_IMAGE_H
 #define RENDER_IMAGE_H
 
-#include "image/exr.h"
-#include "render/job.h"
+#include "format/exr.h"
+#include "render/scene_setup.h"
 
 #define IMAGE_SAMPLES 1000000000     /* a pixel, at most */
 #define IMAGE_WAVES 320              /* of a spectral image, at most: each takes three channels of a part */

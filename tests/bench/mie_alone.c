@@ -1,7 +1,7 @@
 /* How long one sphere takes by itself: the efficiencies of a single size, again and again. Prints nanoseconds a term, terms counted as in
  * mie_textbook.c.
  * usage: mie_alone M_RE M_IM X COUNT */
-#include "optics/mie.h"
+#include "optics/mie/mie.h"
 
 #include <math.h>
 #include <stdio.h>

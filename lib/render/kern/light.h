@@ -7,7 +7,7 @@
 #ifndef KERN_LIGHT_H
 #define KERN_LIGHT_H
 
-#include "render/kern/medium.h"
+#include "render/kern/volume.h"
 
 #define GROUND (-2)
 

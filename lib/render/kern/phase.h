@@ -3,7 +3,7 @@
  * A table is intervals of the angle, in each of which p is linear. An angle finds its interval by an index of two levels:
  * ANGLE_STEPS equal steps of [0, pi], each divided into as many equal parts as keep its nodes apart. A draw finds its interval by an
  * alias table (Walker 1977) of a power of two of columns, so that all its shares are integers: column c holds 2^shift of 2^32, the
- * first threshold of them of interval c, the rest of another. lib/render/angles.c makes both. */
+ * first threshold of them of interval c, the rest of another. lib/render/phase_sampler.c makes both. */
 #ifndef KERN_PHASE_H
 #define KERN_PHASE_H
 
@@ -76,7 +76,7 @@ FN void phase_value(const struct scene *s, const struct tables *t, mv m, iv clas
 
 /* A scattering angle, by its sine and cosine, with the density p(theta) sin(theta) of the hero: the interval by its tabulated
  * probability, the place in it by inverting the integral of (linear p) x sin, sin being a cubic over an interval (at most 1 degree:
- * relative error 4e-9), with one step of Newton, which is enough for intervals as angles.c makes them: within 1e-5 of their width.
+ * relative error 4e-9), with one step of Newton, which is enough for intervals as phase_sampler.c makes them: within 1e-5 of their width.
  * value[j]: p there in sr^-1. Returns the interval. */
 FN iv phase_draw(const struct scene *s, const struct tables *t, mv m, int only, iv class, struct waves w, iv hero, uv u, uv v, fv *sine, fv *cosine,
                  fv *value)

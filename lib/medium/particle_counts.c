@@ -1,0 +1,76 @@
+#include "medium/particle_counts.h"
+
+#include "base/die.h"
+
+#include <math.h>
+#include <string.h>
+
+#define DEFAULT_MOST 256    /* cubes along the longest side, unless more are asked for */
+
+size_t voxels_level(const int32_t *n, int l, int32_t *size)
+{
+	size_t before = 0;
+	memcpy(size, n, 3 * sizeof *size);
+	for (int k = 0; k < l; k++) {
+		before += (size_t)size[0] * (size_t)size[1] * (size_t)size[2];
+		for (int a = 0; a < 3; a++)
+			size[a] = (size[a] + 1) / 2;
+	}
+	return before;
+}
+
+size_t voxels_size(const int32_t *n)
+{
+	int32_t size[3];
+	int l = 0;
+	size_t before;
+	do
+		before = voxels_level(n, l++, size);
+	while (size[0] > 1 || size[1] > 1 || size[2] > 1);
+	return before + 1;
+}
+
+static size_t cube_of(const struct medium *m, const float *q)
+{
+	size_t i[3];
+	for (int a = 0; a < 3; a++)
+		i[a] = (size_t)fmin(fmax(floor((q[a] + m->half[a]) / m->voxel), 0), m->voxels[a] - 1);
+	return (i[2] * (size_t)m->voxels[1] + i[1]) * (size_t)m->voxels[0] + i[0];
+}
+
+/* Add the counts of level l into those of the next. */
+static void condense(struct medium *m, int l)
+{
+	int32_t fine[3], coarse[3];
+	size_t classes = (size_t)m->n_classes, from = voxels_level(m->voxels, l, fine), to = voxels_level(m->voxels, l + 1, coarse);
+	for (int32_t z = 0; z < fine[2]; z++)
+		for (int32_t y = 0; y < fine[1]; y++)
+			for (int32_t x = 0; x < fine[0]; x++) {
+				size_t f = from + ((size_t)z * (size_t)fine[1] + (size_t)y) * (size_t)fine[0] + (size_t)x;
+				size_t c = to + ((size_t)(z / 2) * (size_t)coarse[1] + (size_t)(y / 2)) * (size_t)coarse[0] + (size_t)(x / 2);
+				for (size_t k = 0; k < classes; k++)
+					m->voxel_count[c * classes + k] += m->voxel_count[f * classes + k];
+			}
+}
+
+void voxels_count(struct medium *m, int longest)
+{
+	double side = 2 * fmax(m->half[0], fmax(m->half[1], m->half[2])), box = 8 * m->half[0] * m->half[1] * m->half[2];
+	if (!longest)
+		longest = (int)fmin(fmax(round(side * cbrt((double)m->n_particles / 8 / box)), 1), DEFAULT_MOST);
+	m->voxel = side / longest;
+	for (int a = 0; a < 3; a++)
+		m->voxels[a] = (int32_t)fmax(1, ceil(2 * m->half[a] / m->voxel * (1 - 1e-9)));
+	if ((double)m->voxels[0] * m->voxels[1] * m->voxels[2] * m->n_classes > INT32_MAX)
+		die("--voxels", "%d x %d x %d cubes of %d classes are too many", m->voxels[0], m->voxels[1], m->voxels[2], m->n_classes);
+	m->n_voxel_count = voxels_size(m->voxels) * (size_t)m->n_classes;
+	m->voxel_count = xalloc(m->n_voxel_count, sizeof *m->voxel_count);
+	for (size_t i = 0; i < m->n_particles; i++) {
+		int32_t class;
+		memcpy(&class, &m->particle[4 * i + 3], 4);
+		m->voxel_count[cube_of(m, m->particle + 4 * i) * (size_t)m->n_classes + (size_t)class]++;
+	}
+	int32_t size[3];
+	for (int l = 0; voxels_level(m->voxels, l, size), size[0] > 1 || size[1] > 1 || size[2] > 1; l++)
+		condense(m, l);
+}

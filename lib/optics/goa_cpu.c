@@ -1,7 +1,0 @@
-#include "optics/goa_lanes.h"
-
-const struct goa_lanes *goa_lanes(void)
-{
-	const struct goa_lanes *const build[] = CPU_BUILDS(&goa_lanes);
-	return build[cpu_level()];
-}

@@ -1,0 +1,209 @@
+#include "optics/mie/mie.h"
+
+#include "optics/numerics/lane_math.h"
+#include "optics/mie/mie_lanes.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* one sphere, in plain doubles */
+#define LANES 1
+#define UNROLL 1
+#include "optics/mie/mie_solve.h"
+
+int mie_terms(double x, double complex m)
+{
+	double edge = lane_cbrt(x), broad = cimag(m) * x;
+	double n = x + 7 * edge + 8;                  /* psi_l / chi_l < 1e-16, falling as e^(-1.89 t^(3/2)) at x + t x^(1/3) */
+	if (broad >= 1)
+		return (int)n + 1;
+	/* Narrow resonances, below y, lift it by 1/chi_l^2, but by no more than absorption, which broadens them: < 1e-32 without any. */
+	double t = 12;
+	if (broad > 1e-18) {
+		double fall = (36 - log(broad)) / 1.89;
+		t = lane_cbrt(fall * fall);
+	}
+	double y = sqrt(norm2(m)) * x + 2, most = x + t * edge + 10, narrow = y < most ? y : most;
+	return (int)(n > narrow ? n : narrow) + 1;
+}
+
+/* A chunk of orders: arrays from the one before its first. */
+struct chunk {
+	double psi[1 + MIE_CHUNK + MIE_SPARE], chi[1 + MIE_CHUNK + MIE_SPARE], p[1 + MIE_CHUNK + MIE_SPARE];
+	double size[MIE_CHUNK + MIE_SPARE], re[MIE_CHUNK + MIE_SPARE], im[MIE_CHUNK + MIE_SPARE];
+	double wave[4][1 + MIE_CHUNK + MIE_SPARE], sca[MIE_CHUNK + MIE_SPARE];
+};
+
+/* From so many terms on, what descends is computed twice, the second time chunk by chunk, and not kept in more memory than caches hold. */
+#define TWICE 16384
+
+/* Climb over orders l .. l + count - 1. */
+INLINE void climb_chunk(struct climb *k, const struct glass *g, const struct ratios *e, int with_p, int l, int count, int from_x,
+                        struct chunk *c)
+{
+	struct climb own = *k;
+	c->psi[0] = own.psi;
+	c->chi[0] = own.chi;
+	c->p[0] = own.p;
+	for (int i = 1; i <= count; i++, l++) {
+		climb_to(&own, g, with_p, l, 2.0 * l - 1, from_x, from_x ? e->x[l - 1] : 0);
+		c->psi[i] = own.psi;
+		c->chi[i] = own.chi;
+		if (with_p)
+			c->p[i] = own.p;
+	}
+	*k = own;
+}
+
+/* p of the chunk from order l on, again; to n. */
+static struct trail descend_chunk(const struct descent *marks, const struct course *course, int l, int n, struct chunk *c)
+{
+	struct trail t = { c->size, c->re, c->im, l, n };
+	int top = (course->most + 1) & ~1, end = l - 1 + MIE_CHUNK;
+	struct descent d = end < top ? marks[end / MIE_CHUNK] : descent_start();
+	descend(&d, course, end < top ? end : top, l - 1, &t, NULL);
+	return t;
+}
+
+/* The orders of one sphere, chunk after chunk to take: recurrences one order after the other, coefficients from these side by side. */
+static int by_orders(const struct mie_lanes *lanes, double x, double complex m, int n, int weighted,
+                     void (*take)(const struct mie_lanes *, const struct mie_row *, void *), void *context)
+{
+	struct spheres s = { { x }, { creal(m) }, { cimag(m) }, { n }, n, cimag(m) > 0, mie_near(m) };
+	int twice = s.absorb && !s.near && n >= TWICE;
+	double *room = malloc(((twice ? 3 : RATIOS) * ((size_t)n + 2) + MIE_SPARE) * sizeof *room);
+	struct descent *marks = twice ? malloc(((size_t)n / MIE_CHUNK + 2) * sizeof *marks) : NULL;
+	struct chunk c;
+	if (!room || (twice && !marks)) {
+		free(room);
+		free(marks);
+		return -1;
+	}
+	for (int i = 0; i < 4; i++)
+		c.wave[i][0] = 0;
+	struct ratios e = ratios_of(&s, room, marks);
+	struct glass g = glass_of(s.absorb, x, creal(m), cimag(m), e.beyond[0], n);
+	int with_p = !s.absorb && !s.near;
+	struct climb k = climb_start(&g, with_p);
+	for (int l = 1, count; l <= n; l += count) {
+		count = n + 1 - l < MIE_CHUNK ? n + 1 - l : MIE_CHUNK;
+		if (l + count > x)
+			climb_chunk(&k, &g, &e, with_p, l, count, 1, &c);
+		else if (with_p)
+			climb_chunk(&k, &g, &e, 1, l, count, 0, &c);
+		else
+			climb_chunk(&k, &g, &e, 0, l, count, 0, &c);
+		if (twice)
+			e.p = descend_chunk(marks, &e.course, l, n, &c);
+		int at = l - e.p.base;
+		struct mie_row row = { s.absorb, s.near, l, count, weighted, x, creal(m), cimag(m), e.beyond[0], c.psi, c.chi, c.p,
+			e.x + l, e.y_re + l, e.y_im + l, e.p.size + at, e.p.re + at, e.p.im + at,
+			c.wave[0] + 1, c.wave[1] + 1, c.wave[2] + 1, c.wave[3] + 1, c.sca };
+		lanes->waves(&row);
+		take(lanes, &row, context);
+		for (int i = 0; i < 4; i++)
+			c.wave[i][0] = c.wave[i][count];
+	}
+	free(room);
+	free(marks);
+	return 0;
+}
+
+struct coefficients {
+	double complex *a, *b;
+};
+
+static void take_coefficients(const struct mie_lanes *lanes, const struct mie_row *r, void *context)
+{
+	struct coefficients *to = context;
+	(void)lanes;
+	for (int i = 0; i < r->count; i++) {
+		to->a[r->first + i] = CMPLX(r->a_re[i], r->a_im[i]);
+		to->b[r->first + i] = CMPLX(r->b_re[i], r->b_im[i]);
+	}
+}
+
+int mie_coefficients(double x, double complex m, int n, double complex *a, double complex *b)
+{
+	a[0] = b[0] = 0;
+	return by_orders(mie_lanes(), x, m, n, 0, take_coefficients, &(struct coefficients){ a, b });
+}
+
+static void take_sums(const struct mie_lanes *lanes, const struct mie_row *r, void *context) { lanes->sums(r, context); }
+
+int mie_alone(const struct mie_lanes *lanes, double x, double complex m, int n, struct efficiencies *q, double *error)
+{
+	struct mie_sums sums = { 0 };
+	int bad = by_orders(lanes, x, m, n, 1, take_sums, &sums);
+	*q = mie_of_sums(x, cimag(m) == 0, &sums);
+	*error = mie_error_of_sums(x, cimag(m) == 0, &sums);
+	return bad;
+}
+
+int mie_lossless(int n, const double complex *a, const double complex *b)
+{
+	/* Squares below the normal range have lost digits; so small a wave tells nothing. */
+	for (int l = 1; l <= n; l++) {
+		double a2 = norm2(a[l]), b2 = norm2(b[l]);
+		if (fabs(creal(a[l]) - a2) > 16 * DBL_EPSILON * a2 + DBL_MIN || fabs(creal(b[l]) - b2) > 16 * DBL_EPSILON * b2 + DBL_MIN)
+			return 0;
+	}
+	return 1;
+}
+
+struct efficiencies mie_of_sums(double x, int lossless, const struct mie_sums *s)
+{
+	double sca = lossless || s->sca > s->ext ? s->ext : s->sca;    /* greater by rounding alone: Re a >= |a|^2 */
+	struct efficiencies q;
+	q.ext = 2 / (x * x) * s->ext;
+	q.sca = 2 / (x * x) * sca;
+	q.abs = q.ext - q.sca;
+	q.g = 2 * s->asym / sca;
+	q.back = (s->back_re * s->back_re + s->back_im * s->back_im) / (x * x);    /* S1(180 deg) = sum (2l+1) (-1)^l (b - a) / 2 */
+	return q;
+}
+
+double mie_error_of_sums(double x, int lossless, const struct mie_sums *s)
+{
+	/* The largest coefficient is about (4/9) |m-1| x^3 where x is small, |m-1| x where it is large and m near 1; of all, the sum of
+	 * (2l+1) |a|^2 tells: 3 |a_1|^2 or about x^2 times the largest. */
+	double volume = 4.0 / 9 * x * x * x, full = (volume < 1 ? volume : 1) * (x > 1 ? x : 1);
+	double flat = full / sqrt((lossless ? s->ext : s->sca) / (x * x > 3 ? x * x : 3));
+	return 2 * DBL_EPSILON * (10 + x + (flat > 1 ? flat : 1));
+}
+
+void mie_sums_of(int lossless, int n, const double complex *a, const double complex *b, struct mie_sums *sums)
+{
+	const struct mie_lanes *lanes = mie_lanes();
+	struct chunk c;
+	*sums = (struct mie_sums){ 0 };
+	for (int i = 0; i < 4; i++)
+		c.wave[i][0] = 0;
+	for (int l = 1, count; l <= n; l += count) {
+		count = n + 1 - l < MIE_CHUNK ? n + 1 - l : MIE_CHUNK;
+		for (int i = 1; i <= count; i++) {
+			int at = l + i - 1;
+			double w = 2.0 * at + 1;
+			c.wave[0][i] = w * creal(a[at]);
+			c.wave[1][i] = w * cimag(a[at]);
+			c.wave[2][i] = w * creal(b[at]);
+			c.wave[3][i] = w * cimag(b[at]);
+			c.sca[i - 1] = w * (norm2(a[at]) + norm2(b[at]));
+		}
+		struct mie_row row = { .absorbs = !lossless, .first = l, .count = count, .weighted = 1,
+			.a_re = c.wave[0] + 1, .a_im = c.wave[1] + 1, .b_re = c.wave[2] + 1, .b_im = c.wave[3] + 1, .sca = c.sca };
+		lanes->sums(&row, sums);
+		for (int i = 0; i < 4; i++)
+			c.wave[i][0] = c.wave[i][count];
+	}
+}
+
+struct efficiencies mie_efficiencies(double x, int lossless, int n, const double complex *a, const double complex *b, double *error)
+{
+	struct mie_sums sums;
+	mie_sums_of(lossless, n, a, b, &sums);
+	if (error)
+		*error = mie_error_of_sums(x, lossless, &sums);
+	return mie_of_sums(x, lossless, &sums);
+}

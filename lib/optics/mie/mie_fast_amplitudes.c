@@ -1,0 +1,62 @@
+#include "optics/mie/mie_fast_amplitudes.h"
+
+#include <stdlib.h>
+
+struct series *mie_series(int n, const double complex *a, const double complex *b)
+{
+	double (*c)[SERIES] = malloc(((size_t)n + 1) * sizeof *c);
+	if (!c)
+		return NULL;
+	double complex x1 = 0, x2 = 0;
+	for (int k = n; k >= 0; k--) {
+		double h = 2.0 * k + 1, own = k / (k + 1.0), w = k ? h / (k * (k + 1.0)) : 0;
+		double complex s1 = h * (own * b[k] + x1), s2 = h * (own * a[k] + x2), next1 = w * a[k] - x2;
+		x2 = w * b[k] - x1;
+		x1 = next1;
+		c[k][0] = creal(s1);
+		c[k][1] = cimag(s1);
+		c[k][2] = creal(s2);
+		c[k][3] = cimag(s2);
+	}
+	struct series *s = series_new(n, c);
+	free(c);
+	return s;
+}
+
+#define BLOCK 1024
+
+void mie_series_at(const struct series *s, int ntheta, const double *theta, double complex *s1, double complex *s2)
+{
+#pragma omp parallel for schedule(static) if (ntheta > 16 * BLOCK)
+	for (int from = 0; from < ntheta; from += BLOCK) {
+		double v[BLOCK][SERIES];
+		int count = ntheta - from < BLOCK ? ntheta - from : BLOCK;
+		series_at(s, count, theta + from, v);
+		for (int i = 0; i < count; i++) {
+			s1[from + i] = CMPLX(v[i][0], v[i][1]);
+			s2[from + i] = CMPLX(v[i][2], v[i][3]);
+		}
+	}
+}
+
+int mie_series_pays(int n, size_t ntheta)
+{
+	/* in units of a term at one angle, as measured with AVX-512: a series is begun, and costs per order and, more than sums, per angle */
+	double angles = (double)ntheta;
+	return n * angles > 4e5 + 1200.0 * n + 90 * angles;
+}
+
+int mie_enough(int n, const double complex *a, const double complex *b, double tolerance)
+{
+	double all = 0, rest = 0;
+	if (tolerance <= 0)
+		return n;
+	for (int l = n; l >= 1; l--)
+		all += (2.0 * l + 1) * (norm2(a[l]) + norm2(b[l]));
+	for (; n > 1; n--) {
+		rest += (2.0 * n + 1) * (norm2(a[n]) + norm2(b[n]));
+		if (rest > tolerance * tolerance * all)
+			break;
+	}
+	return n;
+}

@@ -1,0 +1,298 @@
+/* One build of the loops of Lorenz-Mie theory: compiled for each processor, with BUILD the name of what comes out, and LANES. */
+#include "optics/mie/mie_lanes.h"
+
+#define UNROLL 4
+#include "optics/mie/mie_solve.h"
+
+#include <string.h>
+
+/* ------------------------------------------------------------------ sums */
+
+/* Coefficients stand in the sums with the factor w = 2l+1. l, w, (l-1)(l+1)/l over w and the w before, (2l+1)/(l(l+1)) over w^2. */
+enum { L, W, NEXT, CROSS, WEIGHTS };
+
+INLINE void weights(double first, vec w[WEIGHTS])
+{
+	for (int i = 0; i < LANES; i++)
+		LANE(&w[L], i) = first + i;
+	vec l = w[L];
+	w[W] = 2.0 * l + 1.0;
+	w[NEXT] = (l - 1.0) * (l + 1.0) / (l * w[W] * (w[W] - 2.0));
+	w[CROSS] = 1.0 / (l * (l + 1.0) * w[W]);
+}
+
+enum { EXT, SCA, ASYM, BACK_RE, BACK_IM, SUMS };
+
+/* What an order adds, but for scattering; old: the order before. */
+INLINE void addends(const vec w[WEIGHTS], const vec *a, const vec *b, const vec *old_a, const vec *old_b, vec t[SUMS])
+{
+	t[EXT] = a[0] + b[0];
+	t[ASYM] = w[NEXT] * (old_a[0] * a[0] + old_a[1] * a[1] + old_b[0] * b[0] + old_b[1] * b[1]) +
+	          w[CROSS] * (a[0] * b[0] + a[1] * b[1]);
+	t[BACK_RE] = a[0] - b[0];
+	t[BACK_IM] = a[1] - b[1];
+}
+
+/* ------------------------------------------------------------------ many spheres */
+
+/* Orders [from, to] of a vector of spheres. */
+struct many {
+	struct glass g;
+	struct climb k;
+	vec sum[SUMS], old_a[2], old_b[2];
+};
+
+INLINE void orders(struct many *many, const struct ratios *e, int u, const double *const w[WEIGHTS], int absorb, int near, int from, int to,
+                   int from_x, int from_y)
+{
+	const int with_p = !absorb && !near;
+	struct many m = *many;
+	for (int l = from; l <= to; l++) {
+		int i = l * UNROLL + u;
+		struct fallen f;
+		vec a[2], b[2], t[SUMS], weight[WEIGHTS];
+		for (int j = 0; j < WEIGHTS; j++)
+			weight[j] = each(w[j][l]);
+		if (near || from_x)
+			f.ex = e->x[i];
+		if (near || from_y)
+			f.er = e->y_re[i];
+		if (absorb && (near || from_y))
+			f.ei = e->y_im[i];
+		if (absorb && !near) {
+			f.size = e->p.size[i];
+			f.re = e->p.re[i];
+			f.im = e->p.im[i];
+		}
+		climb_to(&m.k, &m.g, with_p, w[L][l], w[W][l - 1], from_x, from_x ? e->x[i - UNROLL] : each(0));
+		waves_of(absorb, near, from_x, from_y, &m.g, weight[L], weight[W], &m.k, &f, a, b, &t[SCA]);
+		addends(weight, a, b, m.old_a, m.old_b, t);
+		m.sum[EXT] += t[EXT];
+		m.sum[ASYM] += t[ASYM];
+		m.sum[BACK_RE] = t[BACK_RE] - m.sum[BACK_RE];
+		m.sum[BACK_IM] = t[BACK_IM] - m.sum[BACK_IM];
+		if (absorb)
+			m.sum[SCA] += t[SCA];
+		for (int c = 0; c < 2; c++) {
+			m.old_a[c] = a[c];
+			m.old_b[c] = b[c];
+		}
+	}
+	*many = m;
+}
+
+INLINE void spheres(struct mie_block *b, int first, const double *const w[WEIGHTS], int absorb, int near)
+{
+	struct spheres s = { .most = 0, .absorb = absorb, .near = near };
+	for (int i = 0; i < WIDTH; i++) {
+		LANE(s.x, i) = b->x[first + i];
+		LANE(s.m_re, i) = b->m_re[first + i];
+		LANE(s.m_im, i) = absorb ? b->m_im[first + i] : 0;
+		LANE(s.terms, i) = b->terms[first + i];
+		s.most = b->terms[first + i] > s.most ? b->terms[first + i] : s.most;
+	}
+	struct ratios e = ratios_of(&s, (vec *)b->room, NULL);
+	for (int u = 0; u < UNROLL; u++) {
+		struct many m = { .g = glass_of(absorb, s.x[u], s.m_re[u], s.m_im[u], e.beyond[u], s.terms[u]) };
+		m.k = climb_start(&m.g, !absorb && !near);
+		int x = e.from_x, y = near ? s.most + 1 : e.from_y, low = x < y ? x : y, high = x < y ? y : x;
+		orders(&m, &e, u, w, absorb, near, 1, low - 1, 0, 0);
+		if (x < y)
+			orders(&m, &e, u, w, absorb, near, low, high - 1, 1, 0);
+		else if (!near)
+			orders(&m, &e, u, w, absorb, near, low, high - 1, 0, 1);
+		if (!near)
+			orders(&m, &e, u, w, absorb, near, high, s.most, 1, 1);
+		for (int i = 0; i < LANES; i++) {
+			vec *q = m.sum;
+			b->sums[first + u * LANES + i] = (struct mie_sums){ LANE(&q[EXT], i), LANE(&q[SCA], i), LANE(&q[ASYM], i),
+				LANE(&q[BACK_RE], i), LANE(&q[BACK_IM], i) };
+		}
+	}
+}
+
+static void block(struct mie_block *b)
+{
+	double *w[WEIGHTS];
+	int most = 0;
+	for (int i = 0; i < MIE_BLOCK; i++)
+		most = b->terms[i] > most ? b->terms[i] : most;
+	for (int j = 0; j < WEIGHTS; j++)
+		w[j] = b->room + (6 * MIE_BLOCK + j) * ((size_t)most + 16);
+	for (int l = 0; l <= most; l += LANES) {
+		vec v[WEIGHTS];
+		weights(l, v);
+		for (int j = 0; j < WEIGHTS; j++)
+			memcpy(w[j] + l, &v[j], sizeof(vec));
+	}
+	const double *const read[WEIGHTS] = { w[0], w[1], w[2], w[3] };
+	for (int first = 0; first < MIE_BLOCK; first += WIDTH)
+		if (b->near && b->absorbs)
+			spheres(b, first, read, 1, 1);
+		else if (b->near)
+			spheres(b, first, read, 0, 1);
+		else if (b->absorbs)
+			spheres(b, first, read, 1, 0);
+		else
+			spheres(b, first, read, 0, 0);
+}
+
+/* ------------------------------------------------------------------ one sphere */
+
+INLINE vec load(const double *p)
+{
+	vec v;
+	memcpy(&v, p, sizeof v);
+	return v;
+}
+
+INLINE void store(double *p, vec v) { memcpy(p, &v, sizeof v); }
+
+INLINE void row(const struct mie_row *r, int absorb, int near, int from_x, int from_y)
+{
+	struct glass g = glass_of(absorb, each(r->x), each(r->m_re), each(r->m_im), each(r->beyond), each(INFINITY));
+	const int weighted = r->weighted;
+	for (int i = 0; i < r->count; i += LANES) {
+		struct climb k = { .psi_old = load(r->psi + i), .psi = load(r->psi + i + 1),
+			.chi_old = load(r->chi + i), .chi = load(r->chi + i + 1) };
+		struct fallen f;
+		vec a[2], b[2], sca, w[WEIGHTS];
+		weights(r->first + i, w);
+		if (!absorb && !near) {
+			k.p_old = load(r->p + i);
+			k.p = load(r->p + i + 1);
+			k.below = k.p_old * g.inv_re;
+		}
+		if (near || from_x)
+			f.ex = load(r->ex + i);
+		if (near || from_y)
+			f.er = load(r->er + i);
+		if (absorb && (near || from_y))
+			f.ei = load(r->ei + i);
+		if (absorb && !near) {
+			f.size = load(r->size + i);
+			f.re = load(r->re + i);
+			f.im = load(r->im + i);
+		}
+		waves_of(absorb, near, from_x, from_y, &g, w[L], weighted ? w[W] : each(1), &k, &f, a, b, &sca);
+		store(r->a_re + i, a[0]);
+		store(r->a_im + i, a[1]);
+		store(r->b_re + i, b[0]);
+		store(r->b_im + i, b[1]);
+		if (absorb)
+			store(r->sca + i, sca);
+	}
+}
+
+INLINE void row_of(const struct mie_row *r, int absorb, int near)
+{
+	int last = r->first + r->count - 1, from_x = r->x <= last, from_y = !near && r->beyond <= last;
+	if (from_x && from_y)
+		row(r, absorb, near, 1, 1);
+	else if (from_x)
+		row(r, absorb, near, 1, 0);
+	else if (from_y)
+		row(r, absorb, near, 0, 1);
+	else
+		row(r, absorb, near, 0, 0);
+}
+
+static void waves_of_one(const struct mie_row *r)
+{
+	if (r->near && r->absorbs)
+		row_of(r, 1, 1);
+	else if (r->near)
+		row_of(r, 0, 1);
+	else if (r->absorbs)
+		row_of(r, 1, 0);
+	else
+		row_of(r, 0, 0);
+}
+
+/* One order after the other, as in a block. */
+INLINE struct mie_sums sum(int count, double (*t)[MIE_CHUNK + MIE_SPARE], const double *sca, struct mie_sums s)
+{
+	for (int i = 0; i < count; i++) {
+		s.ext += t[EXT][i];
+		s.asym += t[ASYM][i];
+		s.back_re = t[BACK_RE][i] - s.back_re;
+		s.back_im = t[BACK_IM][i] - s.back_im;
+		if (sca)
+			s.sca += sca[i];
+	}
+	return s;
+}
+
+static void sums_of_one(const struct mie_row *r, struct mie_sums *sums)
+{
+	double t[SUMS][MIE_CHUNK + MIE_SPARE];
+	for (int i = 0; i < r->count; i += LANES) {
+		const vec old_a[2] = { load(r->a_re + i - 1), load(r->a_im + i - 1) };
+		const vec old_b[2] = { load(r->b_re + i - 1), load(r->b_im + i - 1) };
+		const vec a[2] = { load(r->a_re + i), load(r->a_im + i) }, b[2] = { load(r->b_re + i), load(r->b_im + i) };
+		vec w[WEIGHTS], own[SUMS];
+		weights(r->first + i, w);
+		addends(w, a, b, old_a, old_b, own);
+		store(&t[EXT][i], own[EXT]);
+		store(&t[ASYM][i], own[ASYM]);
+		store(&t[BACK_RE][i], own[BACK_RE]);
+		store(&t[BACK_IM][i], own[BACK_IM]);
+	}
+	*sums = r->absorbs ? sum(r->count, t, r->sca, *sums) : sum(r->count, t, NULL, *sums);
+}
+
+/* ------------------------------------------------------------------ many angles */
+
+/* pi_l is carried with the difference v_l = pi_l - pi_{l-1} (after Wiscombe 1979, with mu = 1 - c put in), so that c counts with all its
+ * digits: v_{l+1} = ((l+1) v_l - (2l+1) c pi_l)/l, (pi_l + tau_l)/l = (l+1)/l v_l - c pi_l. Of unroll vectors of angles, sums from k[l][0]
+ * on, and twice as many from there if both. */
+INLINE void sum_waves(int both, int unroll, int n, const struct mie_factors *restrict k, int side, const double *c_,
+                      double (*out)[MIE_ANGLES])
+{
+	vec c[UNROLL], p[UNROLL], v[UNROLL], sum[UNROLL][8];
+	for (int u = 0; u < unroll; u++) {
+		p[u] = v[u] = each(1);
+		for (int i = 0; i < (both ? 8 : 4); i++)
+			sum[u][i] = each(0);
+	}
+	for (int i = 0; i < unroll * LANES; i++)
+		LANE(c, i) = c_[i];
+	for (int l = 1; l <= n; l++) {
+		const double rise = k[l].rise, twice = k[l].twice, *f = k[l].side[side];
+#pragma GCC unroll 4
+		for (int u = 0; u < unroll; u++) {
+			vec cp = c[u] * p[u], plus = rise * v[u] - cp, minus = twice * p[u] - plus;
+			sum[u][0] += f[0] * plus;
+			sum[u][1] += f[1] * plus;
+			sum[u][2] += f[2] * minus;
+			sum[u][3] += f[3] * minus;
+			if (both) {
+				sum[u][4] += f[4] * plus;
+				sum[u][5] += f[5] * plus;
+				sum[u][6] += f[6] * minus;
+				sum[u][7] += f[7] * minus;
+			}
+			v[u] = plus - rise * cp;
+			p[u] += v[u];
+		}
+	}
+	for (int u = 0; u < unroll; u++)
+		for (int j = 0; j < (both ? 8 : 4); j++)
+			memcpy(&out[j][u * LANES], &sum[u][j], sizeof(vec));
+}
+
+static void angles(int n, const struct mie_factors *k, int sides, const double *c, double (*out)[MIE_ANGLES])
+{
+	double part[8][MIE_ANGLES];
+	int both = sides == MIE_PAIR, width = LANES * (both ? UNROLL / 2 : UNROLL);
+	for (int first = 0; first < MIE_ANGLES; first += width) {
+		if (both)
+			sum_waves(1, UNROLL / 2, n, k, 0, c + first, part);
+		else
+			sum_waves(0, UNROLL, n, k, sides == MIE_BEHIND, c + first, part);
+		for (int j = 0; j < (both ? 8 : 4); j++)
+			memcpy(out[j] + first, part[j], (size_t)width * sizeof(double));
+	}
+}
+
+const struct mie_lanes BUILD = { block, waves_of_one, sums_of_one, angles };

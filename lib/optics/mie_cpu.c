@@ -1,7 +1,0 @@
-#include "optics/mie_lanes.h"
-
-const struct mie_lanes *mie_lanes(void)
-{
-	const struct mie_lanes *const build[] = CPU_BUILDS(&mie_lanes);
-	return build[cpu_level()];
-}

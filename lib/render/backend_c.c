@@ -1,0 +1,26 @@
+/* The C backend: which build of the kernels serves a job, and its pixels divided among threads. */
+#include "base/cpu.h"
+#include "render/scene_setup.h"
+#include "render/kernels_c.h"
+
+#define CHUNK 256              /* pixels that a thread takes at a time, or fewer, */
+#define CHUNK_PATHS 16384      /* of about so many paths */
+
+static render_fn *build_for(const struct scene *s)
+{
+	render_fn *const any[CPU_LEVELS] = CPU_BUILDS(render_any), *const one[CPU_LEVELS] = CPU_BUILDS(render_1);
+	render_fn *const three[CPU_LEVELS] = CPU_BUILDS(render_3);
+	int plain = s->channels == s->n_waves && !s->spectral, level = cpu_level();
+	return plain && s->n_waves == 1 ? one[level] : plain && s->n_waves == 3 ? three[level] : any[level];
+}
+
+void render_c(struct job *j, uint32 pixel, uint32 pixels, uint32 first, uint32 n, int threads)
+{
+	render_fn *render = build_for(&j->scene);
+	uint32 end = pixel + pixels, chunk = n < CHUNK_PATHS / CHUNK ? CHUNK : CHUNK_PATHS / n + 1;
+	int overflow = 0;
+#pragma omp parallel for num_threads(threads) schedule(dynamic) reduction(| : overflow)
+	for (uint32 from = pixel; from < end; from += chunk)
+		render(&j->scene, &j->tables, j->film, &overflow, from, end - from < chunk ? end : from + chunk, first, first + n);
+	j->overflow |= overflow;
+}

@@ -1,7 +1,0 @@
-/* kernels - the text of lib/render/kern, as generated for the OpenCL compiler. */
-#ifndef RENDER_KERNELS_H
-#define RENDER_KERNELS_H
-
-extern const char kernels_source[];
-
-#endif

@@ -1,0 +1,328 @@
+#include "render/scene_file.h"
+
+#include "base/die.h"
+
+#include <libconfig.h>
+#include <libgen.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SIDE_MAX 16384
+#define TEXT_MAX (1 << 20)
+
+static void bad(const char *path, const config_setting_t *at, const char *fmt, ...) __attribute__((noreturn, format(printf, 3, 4)));
+static void bad(const char *path, const config_setting_t *at, const char *fmt, ...)
+{
+	char text[512];
+	va_list args;
+	va_start(args, fmt);
+	vsnprintf(text, sizeof text, fmt, args);
+	va_end(args);
+	die(path, "line %u: %s", config_setting_source_line(at), text);
+}
+
+/* Every key of a group must be one of the words. */
+static void only(const char *path, const config_setting_t *group, const char *words)
+{
+	if (!config_setting_is_group(group))
+		bad(path, group, "must be a group { .. }");
+	for (int i = 0; i < config_setting_length(group); i++) {
+		const config_setting_t *s = config_setting_get_elem(group, (unsigned)i);
+		const char *name = config_setting_name(s);
+		size_t n = strlen(name);
+		int known = 0;
+		for (const char *w = words; *w; w += strcspn(w, " "), w += *w == ' ')
+			known |= strcspn(w, " ") == n && !strncmp(w, name, n);
+		if (!known)
+			bad(path, s, "unknown key '%s' (known here: %s)", name, words);
+	}
+}
+
+static double value(const char *path, const config_setting_t *s)
+{
+	double v = NAN;
+	switch (config_setting_type(s)) {
+	case CONFIG_TYPE_INT: v = config_setting_get_int(s); break;
+	case CONFIG_TYPE_INT64: v = (double)config_setting_get_int64(s); break;
+	case CONFIG_TYPE_FLOAT: v = config_setting_get_float(s); break;
+	default: bad(path, s, "must be a number");
+	}
+	if (!isfinite(v))
+		bad(path, s, "must be finite");
+	return v;
+}
+
+static config_setting_t *need(const char *path, config_setting_t *group, const char *name)
+{
+	config_setting_t *s = config_setting_get_member(group, name);
+	if (!s)
+		bad(path, group, "needs a key '%s'", name);
+	return s;
+}
+
+static double number(const char *path, config_setting_t *group, const char *name, double low, double high)
+{
+	config_setting_t *s = need(path, group, name);
+	double v = value(path, s);
+	if (!(v >= low && v <= high))
+		bad(path, s, "%s %g is out of range (%g to %g)", name, v, low, high);
+	return v;
+}
+
+static void numbers(const char *path, config_setting_t *s, int n, double *out)
+{
+	if (!config_setting_is_aggregate(s) || config_setting_is_group(s) || config_setting_length(s) != n)
+		bad(path, s, "must be %d numbers [a, b%s]", n, n == 3 ? ", c" : "");
+	for (int i = 0; i < n; i++) {
+		out[i] = value(path, config_setting_get_elem(s, (unsigned)i));
+		if (!(fabs(out[i]) <= 1e9))
+			bad(path, s, "%g is out of range (at most 1e9)", out[i]);
+	}
+}
+
+static void optional3(const char *path, config_setting_t *group, const char *name, double *out)
+{
+	config_setting_t *s = config_setting_get_member(group, name);
+	if (s)
+		numbers(path, s, 3, out);
+}
+
+static void camera(const char *path, config_setting_t *g, struct scenefile *s)
+{
+	double size[2];
+	only(path, g, "position target up fov resolution");
+	optional3(path, g, "position", s->position);
+	numbers(path, need(path, g, "target"), 3, s->target);
+	optional3(path, g, "up", s->up);
+	s->fov = number(path, g, "fov", 1e-6, 179);
+	config_setting_t *resolution = need(path, g, "resolution");
+	numbers(path, resolution, 2, size);
+	if (size[0] != floor(size[0]) || size[1] != floor(size[1]) || size[0] < 1 || size[1] < 1 || size[0] > SIDE_MAX || size[1] > SIDE_MAX)
+		bad(path, resolution, "resolution is two whole numbers from 1 to %d", SIDE_MAX);
+	s->width = (int)size[0];
+	s->height = (int)size[1];
+	double d[3], c[3], n = 0;
+	for (int i = 0; i < 3; i++)
+		d[i] = s->target[i] - s->position[i];
+	for (int i = 0; i < 3; i++) {
+		c[i] = d[(i + 1) % 3] * s->up[(i + 2) % 3] - d[(i + 2) % 3] * s->up[(i + 1) % 3];
+		n += c[i] * c[i];
+	}
+	if (!(n > 0) || !isfinite(n))
+		bad(path, g, "position, target and up do not span a view");
+}
+
+/* A strength: one number for white, or linear RGB. */
+static void strength(const char *path, config_setting_t *group, const char *name, double *rgb)
+{
+	config_setting_t *s = need(path, group, name);
+	if (config_setting_is_aggregate(s))
+		numbers(path, s, 3, rgb);
+	else
+		rgb[0] = rgb[1] = rgb[2] = value(path, s);
+	for (int i = 0; i < 3; i++)
+		if (!(rgb[i] >= 0 && rgb[i] <= 1e9))
+			bad(path, s, "%s %g is out of range (0 to 1e+09)", name, rgb[i]);
+}
+
+/* The scene's folder and a relative name make a path. */
+static char *beside(const char *scene, const char *name)
+{
+	if (*name == '/')
+		return xtext("%s", name);
+	char *copy = xtext("%s", scene), *path = xtext("%s/%s", dirname(copy), name);
+	free(copy);
+	return path;
+}
+
+static void sun(const char *path, config_setting_t *g, struct sun *sun)
+{
+	only(path, g, "type direction irradiance angle");
+	config_setting_t *direction = need(path, g, "direction");
+	numbers(path, direction, 3, sun->direction);
+	double length = fabs(sun->direction[0]) + fabs(sun->direction[1]) + fabs(sun->direction[2]);
+	if (!(length > 1e-9))
+		bad(path, direction, "direction must be longer than 1e-9");
+	strength(path, g, "irradiance", sun->irradiance);
+	sun->angle = config_setting_get_member(g, "angle") ? number(path, g, "angle", 0, 180) : 0;
+	if (sun->angle > 0 && sun->angle < 0.01)
+		bad(path, g, "angle is 0 (parallel light) or at least 0.01 degrees");
+}
+
+static void quad(const char *path, config_setting_t *g, struct quad *quad)
+{
+	double *a = quad->edge[0], *b = quad->edge[1], normal2 = 0, a2 = 0, b2 = 0;
+	only(path, g, "type corner edge1 edge2 radiance");
+	numbers(path, need(path, g, "corner"), 3, quad->corner);
+	numbers(path, need(path, g, "edge1"), 3, a);
+	numbers(path, need(path, g, "edge2"), 3, b);
+	strength(path, g, "radiance", quad->radiance);
+	for (int i = 0; i < 3; i++) {
+		normal2 += pow(a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3], 2);
+		a2 += a[i] * a[i];
+		b2 += b[i] * b[i];
+	}
+	if (!(a2 > 1e-24 && a2 < 1e18 && b2 > 1e-24 && b2 < 1e18 && normal2 > 1e-8 * a2 * b2))
+		bad(path, g, "edge1 and edge2 do not span a quad (from 1e-12 to 1e9 m, at an angle above 1e-4)");
+}
+
+static void light(const char *path, config_setting_t *g, struct scenefile *s)
+{
+	double rgb[3] = { 1, 1, 1 };
+	if (!config_setting_is_group(g))
+		bad(path, g, "a light is a group { type = ..; }");
+	config_setting_t *t = need(path, g, "type"), *file = config_setting_get_member(g, "file");
+	const char *type = config_setting_get_string(t);
+	int sky = type && !strcmp(type, "environment");
+	if ((!sky || file) && s->n_suns + s->n_quads + (s->map.width > 0) == MAX_LIGHTS)
+		bad(path, g, "more than %d suns, quads and maps", MAX_LIGHTS);
+	if (sky && file) {
+		only(path, g, "type file radiance");
+		const char *name = config_setting_get_string(file);
+		if (!name || !*name)
+			bad(path, file, "file must be a string");
+		if (s->map.width)
+			bad(path, g, "a second environment map");
+		if (config_setting_get_member(g, "radiance"))
+			strength(path, g, "radiance", rgb);
+		char *map = beside(path, name);
+		map_read(map, rgb, &s->map);
+		free(map);
+	} else if (sky) {
+		only(path, g, "type radiance file");
+		strength(path, g, "radiance", rgb);
+		for (int i = 0; i < 3; i++)
+			s->environment[i] += rgb[i];
+	} else if (type && !strcmp(type, "sun")) {
+		sun(path, g, &s->sun[s->n_suns++]);
+	} else if (type && !strcmp(type, "quad")) {
+		quad(path, g, &s->quad[s->n_quads++]);
+	} else {
+		bad(path, t, "type must be \"environment\", \"sun\" or \"quad\"");
+	}
+}
+
+static void list(FILE *f, int n, const double *v)
+{
+	for (int i = 0; i < n; i++)
+		fprintf(f, "%c%.17g", i ? ',' : ' ', v[i]);
+}
+
+static char *canonical(const struct scenefile *s)
+{
+	char *text, *end;
+	size_t size;
+	FILE *f = open_memstream(&text, &size);
+	if (!f)
+		die(NULL, "out of memory");
+	fprintf(f, "scene camera %.17g,%.17g,%.17g %.17g,%.17g,%.17g %.17g,%.17g,%.17g %.17g %dx%d medium %.17g,%.17g,%.17g", s->position[0],
+	        s->position[1], s->position[2], s->target[0], s->target[1], s->target[2], s->up[0], s->up[1], s->up[2], s->fov, s->width,
+	        s->height, s->medium_position[0], s->medium_position[1], s->medium_position[2]);
+	fprintf(f, " environment");
+	list(f, 3, s->environment);
+	for (int i = 0; i < s->n_suns; i++) {
+		fprintf(f, " sun");
+		list(f, 3, s->sun[i].direction);
+		list(f, 3, s->sun[i].irradiance);
+		list(f, 1, &s->sun[i].angle);
+	}
+	for (int i = 0; i < s->n_quads; i++) {
+		fprintf(f, " quad");
+		list(f, 3, s->quad[i].corner);
+		list(f, 3, s->quad[i].edge[0]);
+		list(f, 3, s->quad[i].edge[1]);
+		list(f, 3, s->quad[i].radiance);
+	}
+	if (s->map.width) {
+		fprintf(f, " map %dx%d crc %08x", s->map.width, s->map.height, s->map.crc);
+		list(f, 3, s->map.scale);
+	}
+	if (s->has_ground)
+		fprintf(f, " ground %.17g %.17g", s->ground_height, s->ground_albedo);
+	fclose(f);
+	end = xtext("%s\n", text);
+	free(text);
+	return end;
+}
+
+/* The text of a scene. libconfig's own reading of files, and of files that they include, exits without a line of ours where it
+ * fails. */
+static char *whole(const char *path, FILE *f)
+{
+	size_t n = 0;
+	char *text = xalloc(TEXT_MAX + 2, 1);
+	n = fread(text, 1, TEXT_MAX + 1, f);
+	if (ferror(f))
+		die(path, "cannot read:");
+	if (n > TEXT_MAX)
+		die(path, "is larger than %d bytes", TEXT_MAX);
+	if (strlen(text) != n)
+		die(path, "has a NUL byte");
+	for (const char *line = text; line; line = strchr(line, '\n') ? strchr(line, '\n') + 1 : NULL)
+		if (!strncmp(line + strspn(line, " \t"), "@include", 8))
+			die(path, "@include is not known in a scene");
+	return text;
+}
+
+void scenefile_read(const char *path, struct scenefile *s)
+{
+	config_t config;
+	int standard = !strcmp(path, "-");
+	FILE *f = standard ? stdin : fopen(path, "r");
+	if (!f)
+		die(path, "cannot open:");
+	*s = (struct scenefile){ .up = { 0, 1, 0 } };
+	config_init(&config);
+	if (standard)
+		path = "standard input";
+	char *text = whole(path, f);
+	if (!config_read_string(&config, text)) {
+		const char *what = config_error_text(&config) ? config_error_text(&config) : "cannot be read";
+		die(path, "line %d: %s%s", config_error_line(&config), what,
+		    strstr(what, "element type") ? " (write 0.0, not 0, beside numbers with a point)" : "");
+	}
+	fclose(f);
+	free(text);
+	config_setting_t *root = config_root_setting(&config), *g, *lights;
+	only(path, root, "camera medium lights ground");
+	for (const char *const *w = (const char *const[]){ "camera", "medium", NULL }; *w; w++)
+		if (!config_setting_get_member(root, *w))
+			die(path, "needs a group '%s'", *w);
+	camera(path, config_setting_get_member(root, "camera"), s);
+
+	g = config_setting_get_member(root, "medium");
+	only(path, g, "file position");
+	const char *name = config_setting_get_string(need(path, g, "file"));
+	if (!name || !*name)
+		bad(path, g, "file must be a string");
+	s->medium = beside(path, name);
+	optional3(path, g, "position", s->medium_position);
+
+	lights = config_setting_get_member(root, "lights");
+	if (!lights)
+		s->environment[0] = s->environment[1] = s->environment[2] = 1;
+	else if (!config_setting_is_list(lights))
+		bad(path, lights, "lights must be a list ( {..}, {..} )");
+	for (int i = 0; lights && i < config_setting_length(lights); i++)
+		light(path, config_setting_get_elem(lights, (unsigned)i), s);
+
+	g = config_setting_get_member(root, "ground");
+	if (g) {
+		only(path, g, "height albedo");
+		s->has_ground = 1;
+		s->ground_height = number(path, g, "height", -1e9, 1e9);
+		s->ground_albedo = number(path, g, "albedo", 0, 1);
+	}
+	config_destroy(&config);
+	s->history = canonical(s);
+}
+
+void scenefile_free(struct scenefile *s)
+{
+	free(s->medium);
+	free(s->map.rgb);
+	free(s->history);
+}

@@ -1,0 +1,38 @@
+/* scene_file - a scene as the user wrote it; scene(5). */
+#ifndef RENDER_SCENE_FILE_H
+#define RENDER_SCENE_FILE_H
+
+#include "render/envmap.h"
+
+struct sun {
+	double direction[3];       /* the way the light travels */
+	double irradiance[3];      /* perpendicular to the beam */
+	double angle;              /* degrees across */
+};
+
+struct quad {
+	double corner[3], edge[2][3];
+	double radiance[3];        /* to the side of edge[0] x edge[1] */
+};
+
+struct scenefile {
+	double position[3], target[3], up[3], fov;     /* camera; fov in degrees along the longer side */
+	int width, height;
+	char *medium;              /* path, relative names resolved against the scene's folder */
+	double medium_position[3];
+	int has_ground;
+	double ground_height, ground_albedo;
+	double environment[3];     /* linear RGB, as all strengths */
+	int n_suns, n_quads;
+	struct sun sun[MAX_LIGHTS];
+	struct quad quad[MAX_LIGHTS];
+	struct map map;
+	char *history;             /* one line: the scene in canonical form, without file names */
+};
+
+/* scenefile_read - read and check a scene ("-": standard input, whose folder is the current one); dies with its line on a misspelt or missing key or a bad value. */
+void scenefile_read(const char *path, struct scenefile *s);
+
+void scenefile_free(struct scenefile *s);
+
+#endif
