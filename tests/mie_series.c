@@ -145,7 +145,7 @@ static void independence(void)
 	struct waves w = waves(700, 1.4 + 0.001 * I);
 	double theta[501];
 	double complex s[2][501], one[2], other[2][501];
-	angles_equal(501, theta);
+	angle_grid_equal(501, theta);
 	int same = 1, alone = 1;
 	for (int c = 0; c < CPU_LEVELS; c++) {
 		if (!cpu_has(c))
@@ -240,12 +240,12 @@ static void thinning(void)
 	for (size_t k = 0; k < sizeof at / sizeof *at; k++) {
 		int terms, steps = (int)(101 * at[k].x) + 20000;
 		struct sphere s = sphere_of(at[k].x, at[k].m, &terms);
-		long n = angles_fine(at[k].x, at[k].tolerance, NULL), *keep = room((size_t)n, sizeof *keep);
+		long n = angle_grid_fine(at[k].x, at[k].tolerance, NULL), *keep = room((size_t)n, sizeof *keep);
 		double *theta = room((size_t)n, sizeof *theta), *p = room((size_t)n, sizeof *p), error = 0;
-		angles_fine(at[k].x, at[k].tolerance, theta);
+		angle_grid_fine(at[k].x, at[k].tolerance, theta);
 		for (long i = 0; i < n; i++)
 			p[i] = p_at(&s, theta[i]);
-		long kept = angles_thin(n, theta, 1, &p, at[k].tolerance, keep), j = 0;
+		long kept = angle_grid_thin(n, theta, 1, &p, at[k].tolerance, keep), j = 0;
 		int good = kept >= 181 && keep[0] == 0 && keep[kept - 1] == n - 1 && theta[0] == 0 && theta[n - 1] == 180;
 		for (long i = 0; i + 1 < kept; i++)
 			good &= theta[keep[i + 1]] > theta[keep[i]] && theta[keep[i + 1]] - theta[keep[i]] <= 1 + 1e-12;
@@ -274,15 +274,15 @@ static void thinning(void)
 	/* Two waves at once: each within the tolerance, so no fewer than for either. */
 	int terms;
 	struct sphere s[2] = { sphere_of(50, 1.33, &terms), sphere_of(41, 1.33, &terms) };
-	long n = angles_fine(50, 1e-3, NULL), *keep = room((size_t)n, sizeof *keep), kept[3];
+	long n = angle_grid_fine(50, 1e-3, NULL), *keep = room((size_t)n, sizeof *keep), kept[3];
 	double *theta = room((size_t)n, sizeof *theta), *p[2] = { room((size_t)n, sizeof(double)), room((size_t)n, sizeof(double)) };
-	angles_fine(50, 1e-3, theta);
+	angle_grid_fine(50, 1e-3, theta);
 	for (int w = 0; w < 2; w++) {
 		for (long i = 0; i < n; i++)
 			p[w][i] = p_at(&s[w], theta[i]);
-		kept[w] = angles_thin(n, theta, 1, &p[w], 1e-3, keep);
+		kept[w] = angle_grid_thin(n, theta, 1, &p[w], 1e-3, keep);
 	}
-	kept[2] = angles_thin(n, theta, 2, p, 1e-3, keep);
+	kept[2] = angle_grid_thin(n, theta, 2, p, 1e-3, keep);
 	ok(kept[2] >= kept[0] && kept[2] >= kept[1], "angles for two at once: %ld, for each %ld and %ld", kept[2], kept[0], kept[1]);
 	for (int w = 0; w < 2; w++) {
 		free(p[w]);

@@ -332,7 +332,7 @@ static int thin(struct average *a)
 	long *keep = xalloc((size_t)a->n, sizeof *keep);
 	for (size_t m = 0; m < a->nmean; m++)
 		p[m] = a->mean[m].p;
-	long n = angles_thin(a->n, a->theta, (int)a->nmean, p, a->o->tolerance / 2, keep);
+	long n = angle_grid_thin(a->n, a->theta, (int)a->nmean, p, a->o->tolerance / 2, keep);
 	if (n < 0)
 		die(NULL, "out of memory");
 	int enough = n < a->n;
@@ -356,15 +356,15 @@ static int own_angles(struct average *a, int level_only)
 		x = fmax(x, size_extent(s) * (limited(a, s) ? s->carried[a->hi_col] / s->radius : 1));
 	}
 	if (!a->o->profile) {
-		take_angles(a, angles_count(x));
-		angles_grid(x, a->theta);
+		take_angles(a, angle_grid_count(x));
+		angle_grid(x, a->theta);
 		return integrate(a, FIRST_LEVEL, 1);
 	}
 	/* A mean of many sizes is smooth, which is seen when it is there. */
 	int level = FIRST_LEVEL;
 	for (double coarse = a->sub ? COARSE : 1;; coarse /= 4) {
-		take_angles(a, angles_fine(x / coarse, a->o->tolerance / 2, NULL));
-		angles_fine(x / coarse, a->o->tolerance / 2, a->theta);
+		take_angles(a, angle_grid_fine(x / coarse, a->o->tolerance / 2, NULL));
+		angle_grid_fine(x / coarse, a->o->tolerance / 2, a->theta);
 		level = integrate(a, level, 1);
 		if (level_only || thin(a) || coarse == 1)
 			return level;
