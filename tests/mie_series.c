@@ -69,7 +69,7 @@ static void accuracy(void)
 	double forward = 0, local = 0, sum = 0;
 	for (size_t k = 0; k < sizeof at / sizeof *at; k++) {
 		struct waves w = waves(at[k].x, at[k].m);
-		struct series *s = mie_series(w.n, w.a, w.b);
+		struct legendre_series *s = mie_series(w.n, w.a, w.b);
 		double theta[64];
 		double complex s1[64], s2[64], zero[2], want[2], d1[64], d2[64];
 		int n = angles_to_try(at[k].x, theta);
@@ -98,7 +98,7 @@ static void accuracy(void)
 		printf("# x = %g, m = %g+%gi: %.1e of S(0), %.1e of what is near\n", at[k].x, creal(at[k].m), cimag(at[k].m), one, own);
 		forward = fmax(forward, one);
 		local = fmax(local, own);
-		series_free(s);
+		legendre_series_free(s);
 		drop(&w);
 	}
 	ok(forward <= 1e-13, "error of S1, S2 at every angle within 1e-13 S(0) (%.2g)", forward);
@@ -112,7 +112,7 @@ static void oracle(void)
 	FILE *f = fopen("tests/data/mie_amplitudes.csv", "r");
 	double v[8], x = 0, worst = 0;
 	double complex m = 0, zero[2];
-	struct series *s = NULL;
+	struct legendre_series *s = NULL;
 	int rows = 0;
 	if (!f || fscanf(f, "%*[^\n]") < 0) {
 		printf("Bail out! cannot read tests/data/mie_amplitudes.csv\n");
@@ -122,7 +122,7 @@ static void oracle(void)
 		double complex s1, s2;
 		if (x != v[0] || m != CMPLX(v[1], v[2])) {
 			struct waves w = waves(x = v[0], m = CMPLX(v[1], v[2]));
-			series_free(s);
+			legendre_series_free(s);
 			s = mie_series(w.n, w.a, w.b);
 			if (!s)
 				exit(2);
@@ -135,7 +135,7 @@ static void oracle(void)
 		rows++;
 	}
 	fclose(f);
-	series_free(s);
+	legendre_series_free(s);
 	ok(rows == 533 && worst <= 1e-10, "%d reference amplitudes within 1e-10 S(0) (%.2g)", rows, worst);
 }
 
@@ -151,7 +151,7 @@ static void independence(void)
 		if (!cpu_has(c))
 			continue;
 		setenv("MOTES_CPU", cpu_name(c), 1);
-		struct series *series = mie_series(w.n, w.a, w.b);
+		struct legendre_series *series = mie_series(w.n, w.a, w.b);
 		if (!series)
 			exit(2);
 		mie_series_at(series, 501, theta, c ? other[0] : s[0], c ? other[1] : s[1]);
@@ -160,7 +160,7 @@ static void independence(void)
 			mie_series_at(series, 1, &theta[i], &one[0], &one[1]);
 			alone &= one[0] == s[0][i] && one[1] == s[1][i];
 		}
-		series_free(series);
+		legendre_series_free(series);
 	}
 	unsetenv("MOTES_CPU");
 	drop(&w);
@@ -185,16 +185,16 @@ static double sphere(int steps, double (*f)(void *, double), void *context)
 }
 
 struct sphere {
-	struct series *series;
+	struct legendre_series *series;
 	double norm;
 };
 
 static double p_at(void *context, double theta)
 {
 	struct sphere *s = context;
-	double v[1][SERIES], sum = 0;
-	series_at(s->series, 1, &theta, v);
-	for (int i = 0; i < SERIES; i++)
+	double v[1][LEGENDRE_SERIES_SUMS], sum = 0;
+	legendre_series_at(s->series, 1, &theta, v);
+	for (int i = 0; i < LEGENDRE_SERIES_SUMS; i++)
 		sum += v[0][i] * v[0][i];
 	return sum / (2 * s->norm);
 }
@@ -223,7 +223,7 @@ static void normalisation(void)
 		while (steps < 2 * n)
 			steps *= 2;
 		worst = fmax(worst, fabs(sphere(steps, p_at, &s) - 1));
-		series_free(s.series);
+		legendre_series_free(s.series);
 	}
 	ok(worst <= 1e-10, "p integrates to 1 over the sphere within 1e-10 (%.2g)", worst);
 }
@@ -265,7 +265,7 @@ static void thinning(void)
 		free(keep);
 		free(theta);
 		free(p);
-		series_free(s.series);
+		legendre_series_free(s.series);
 	}
 	ok(over <= 1.001, "p linear between the angles chosen is within the tolerance (%.4g of it)", over);
 	ok(many <= 1, "and these are few (%.3g of what is allowed)", many);
@@ -286,7 +286,7 @@ static void thinning(void)
 	ok(kept[2] >= kept[0] && kept[2] >= kept[1], "angles for two at once: %ld, for each %ld and %ld", kept[2], kept[0], kept[1]);
 	for (int w = 0; w < 2; w++) {
 		free(p[w]);
-		series_free(s[w].series);
+		legendre_series_free(s[w].series);
 	}
 	free(theta);
 	free(keep);

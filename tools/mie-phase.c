@@ -22,13 +22,13 @@ struct sphere {
 	struct phase_state state;
 	struct waves *w;
 	int n;
-	struct series *series;
+	struct legendre_series *series;
 };
 
 static void sphere_close(struct phase_state *state)
 {
 	struct sphere *s = (struct sphere *)state;
-	series_free(s->series);
+	legendre_series_free(s->series);
 	waves_drop(s->w);
 	free(s);
 }

@@ -13,10 +13,10 @@
  * With tau_l = l(l+1) P_l - mu pi_l, pi_l = P_l' and the sums of Legendre polynomials for these, the coefficient of P_k in S1 is
  * (2k+1) (b_k k/(k+1) + x_k), that in S2 (2k+1) (a_k k/(k+1) + y_k), where, w_l = (2l+1)/(l(l+1)),
  *     x_k = w_(k+1) a_(k+1) - y_(k+1),    y_k = w_(k+1) b_(k+1) - x_(k+1),    x_n = y_n = 0 */
-struct series *mie_series(int n, const double complex *a, const double complex *b);
+struct legendre_series *mie_series(int n, const double complex *a, const double complex *b);
 
 /* mie_series_at - S1, S2 at angles theta[ntheta] (degrees, [0, 180]), shared out among OpenMP threads where they are many. */
-void mie_series_at(const struct series *s, int ntheta, const double *theta, double complex *s1, double complex *s2);
+void mie_series_at(const struct legendre_series *s, int ntheta, const double *theta, double complex *s1, double complex *s2);
 
 /* mie_series_pays - whether a series is expected to take less time than mie_amplitudes. */
 int mie_series_pays(int n, size_t ntheta);
