@@ -69,13 +69,13 @@ static void accuracy(void)
 	double forward = 0, local = 0, sum = 0;
 	for (size_t k = 0; k < sizeof at / sizeof *at; k++) {
 		struct waves w = waves(at[k].x, at[k].m);
-		struct legendre_series *s = mie_series(w.n, w.a, w.b);
+		struct legendre_series *s = mie_fast_amplitudes_new(w.n, w.a, w.b);
 		double theta[64];
 		double complex s1[64], s2[64], zero[2], want[2], d1[64], d2[64];
 		int n = angles_to_try(at[k].x, theta);
 		if (!s)
 			exit(2);
-		mie_series_at(s, n, theta, s1, s2);
+		mie_fast_amplitudes_at(s, n, theta, s1, s2);
 		reference(&w, 0, zero);
 		if (at[k].x < 5000 && mie_amplitudes(w.n, w.a, w.b, n, theta, d1, d2))
 			exit(2);
@@ -86,7 +86,7 @@ static void accuracy(void)
 			reference(&w, theta[i], want);
 			for (int j = 0; j < 41; j++)    /* over +-10/x rad */
 				near[j] = fmin(180, fmax(0, theta[i] + (j - 20) * 0.5 / at[k].x * (180 / M_PI)));
-			mie_series_at(s, 41, near, n1, n2);
+			mie_fast_amplitudes_at(s, 41, near, n1, n2);
 			for (int j = 0; j < 41; j++)
 				rms += (norm2(n1[j]) + norm2(n2[j])) / (2 * 41);
 			double e = fmax(cabs(s1[i] - want[0]), cabs(s2[i] - want[1]));
@@ -123,13 +123,13 @@ static void oracle(void)
 		if (x != v[0] || m != CMPLX(v[1], v[2])) {
 			struct waves w = waves(x = v[0], m = CMPLX(v[1], v[2]));
 			legendre_series_free(s);
-			s = mie_series(w.n, w.a, w.b);
+			s = mie_fast_amplitudes_new(w.n, w.a, w.b);
 			if (!s)
 				exit(2);
 			reference(&w, 0, zero);
 			drop(&w);
 		}
-		mie_series_at(s, 1, &v[3], &s1, &s2);
+		mie_fast_amplitudes_at(s, 1, &v[3], &s1, &s2);
 		double e = fmax(cabs(s1 - CMPLX(v[4], v[5])), cabs(s2 - CMPLX(v[6], v[7]))) / cabs(zero[0]);
 		worst = fmax(worst, e / fmax(1, 100 * DBL_EPSILON * 2 * cabs(m) / cabs(m - 1) / 1e-10));    /* as far as m - 1 is known */
 		rows++;
@@ -151,13 +151,13 @@ static void independence(void)
 		if (!cpu_has(c))
 			continue;
 		setenv("MOTES_CPU", cpu_name(c), 1);
-		struct legendre_series *series = mie_series(w.n, w.a, w.b);
+		struct legendre_series *series = mie_fast_amplitudes_new(w.n, w.a, w.b);
 		if (!series)
 			exit(2);
-		mie_series_at(series, 501, theta, c ? other[0] : s[0], c ? other[1] : s[1]);
+		mie_fast_amplitudes_at(series, 501, theta, c ? other[0] : s[0], c ? other[1] : s[1]);
 		same &= !c || !memcmp(s, other, sizeof s);
 		for (int i = 0; i < 501; i += 7) {
-			mie_series_at(series, 1, &theta[i], &one[0], &one[1]);
+			mie_fast_amplitudes_at(series, 1, &theta[i], &one[0], &one[1]);
 			alone &= one[0] == s[0][i] && one[1] == s[1][i];
 		}
 		legendre_series_free(series);
@@ -202,7 +202,8 @@ static double p_at(void *context, double theta)
 static struct sphere sphere_of(double x, double complex m, int *n)
 {
 	struct waves w = waves(x, m);
-	struct sphere s = { mie_series(w.n, w.a, w.b), M_PI * x * x * mie_efficiencies(x, cimag(m) == 0, w.n, w.a, w.b, NULL).sca };
+	struct sphere s = { mie_fast_amplitudes_new(w.n, w.a, w.b),
+		M_PI * x * x * mie_efficiencies(x, cimag(m) == 0, w.n, w.a, w.b, NULL).sca };
 	if (!s.series)
 		exit(2);
 	*n = w.n;
@@ -299,7 +300,7 @@ static void enough(void)
 	for (double x = 10; x < 2000; x *= 5)
 		for (double tolerance = 1e-2; tolerance > 1e-7; tolerance /= 100) {
 			struct waves w = waves(x, 1.33);
-			int n = mie_enough(w.n, w.a, w.b, tolerance), steps = 20 * (int)x + 500;
+			int n = mie_terms_enough(w.n, w.a, w.b, tolerance), steps = 20 * (int)x + 500;
 			double *theta = room((size_t)steps, sizeof *theta), error = 0;
 			double complex *s = room(4 * (size_t)steps, sizeof *s), *s2 = s + steps, *t1 = s2 + steps, *t2 = t1 + steps;
 			for (int i = 0; i < steps; i++)

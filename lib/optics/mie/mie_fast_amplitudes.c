@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-struct legendre_series *mie_series(int n, const double complex *a, const double complex *b)
+struct legendre_series *mie_fast_amplitudes_new(int n, const double complex *a, const double complex *b)
 {
 	double (*c)[LEGENDRE_SERIES_SUMS] = malloc(((size_t)n + 1) * sizeof *c);
 	if (!c)
@@ -25,7 +25,8 @@ struct legendre_series *mie_series(int n, const double complex *a, const double 
 
 #define BLOCK 1024
 
-void mie_series_at(const struct legendre_series *s, int ntheta, const double *theta, double complex *s1, double complex *s2)
+void mie_fast_amplitudes_at(const struct legendre_series *s, int ntheta, const double *theta,
+                            double complex *s1, double complex *s2)
 {
 #pragma omp parallel for schedule(static) if (ntheta > 16 * BLOCK)
 	for (int from = 0; from < ntheta; from += BLOCK) {
@@ -39,14 +40,14 @@ void mie_series_at(const struct legendre_series *s, int ntheta, const double *th
 	}
 }
 
-int mie_series_pays(int n, size_t ntheta)
+int mie_fast_amplitudes_pays(int n, size_t ntheta)
 {
 	/* in units of a term at one angle, as measured with AVX-512: a series is begun, and costs per order and, more than sums, per angle */
 	double angles = (double)ntheta;
 	return n * angles > 4e5 + 1200.0 * n + 90 * angles;
 }
 
-int mie_enough(int n, const double complex *a, const double complex *b, double tolerance)
+int mie_terms_enough(int n, const double complex *a, const double complex *b, double tolerance)
 {
 	double all = 0, rest = 0;
 	if (tolerance <= 0)
