@@ -95,8 +95,8 @@ static void second_order(double complex m, int p, double lo, double hi, double w
 		sphere_sum(terms, a, b, t, &want[0], &want[1]);
 		for (int i = 0; i < rays; i++) {
 			const struct ray *r = &ray[i];
-			struct order_terms o;
-			order_terms(p, m, r->sin_i, t, r->sigma, r->axial, &o);
+			struct debye_order_terms o;
+			debye_order_terms(p, m, r->sin_i, t, r->sigma, r->axial, &o);
 			double spread = p ? sqrt(r->ratio * r->cos_i / r->slope) : 0.5;
 			double complex wave = -x * spread * cexp(I * (x * o.path + r->eighths * M_PI_4));
 			for (int j = 0; j < 2; j++) {

@@ -17,7 +17,7 @@ static void spreads(const struct goa_packet *k, double x, const struct goa_cap *
 	}
 	for (int i = 0; capped && i < GOA_WIDTH; i++)
 		if (x < k->until[i])
-			size[i] = x * goa_spread(x, &k->ray[i], &cap[k->ray[i].p]);
+			size[i] = x * goa_rays_spread(x, &k->ray[i], &cap[k->ray[i].p]);
 	if (k->fades)
 #pragma omp simd
 		for (int i = 0; i < GOA_WIDTH; i++)
@@ -83,27 +83,27 @@ static void diffraction(const struct goa_angles *k, double x, double d[GOA_WIDTH
 }
 
 /* Amplitudes of a packet's rays without F. */
-static void plus_sizes(const struct plus_packet *k, double x, double size[PLUS_WIDTH])
+static void plus_sizes(const struct goa_plus_packet *k, double x, double size[GOA_WIDTH])
 {
 	double half = x * x / 2;
 #pragma omp simd
-	for (int i = 0; i < PLUS_WIDTH; i++) {
+	for (int i = 0; i < GOA_WIDTH; i++) {
 		double most = x * k->spread[i];
 		size[i] = lane_select(x, k->from[i], 0, lane_select(most, half, most, half));
 	}
 	if (k->fades)
 #pragma omp simd
-		for (int i = 0; i < PLUS_WIDTH; i++)
+		for (int i = 0; i < GOA_WIDTH; i++)
 			size[i] *= lane_decay(x * k->fade[i]);
 }
 
 /* Without a window: none of these rays is summed as waves. */
-static void plus_free(const struct plus_packet *k, double x, double s[4][PLUS_WIDTH])
+static void plus_free(const struct goa_plus_packet *k, double x, double s[4][GOA_WIDTH])
 {
-	double size[PLUS_WIDTH];
+	double size[GOA_WIDTH];
 	plus_sizes(k, x, size);
 #pragma omp simd
-	for (int i = 0; i < PLUS_WIDTH; i++) {
+	for (int i = 0; i < GOA_WIDTH; i++) {
 		double sine, cosine, over = x / (x * x + k->hold[i]);
 		lane_sincos(x * k->path[i] + k->quarters[i], &sine, &cosine);
 		double c = size[i] * cosine, d = size[i] * sine;
@@ -116,16 +116,16 @@ static void plus_free(const struct plus_packet *k, double x, double s[4][PLUS_WI
 	}
 }
 
-static void plus_windowed(const struct plus_packet *k, const struct window *w, double x, double s[4][PLUS_WIDTH])
+static void plus_windowed(const struct goa_plus_packet *k, const struct window *w, double x, double s[4][GOA_WIDTH])
 {
-	double size[PLUS_WIDTH];
+	double size[GOA_WIDTH];
 	plus_sizes(k, x, size);
 	/* pieces that are not there begin beyond every u */
 	const double from1 = w->n > 1 ? w->from[1] : 2, from2 = w->n > 2 ? w->from[2] : 2;
 	const double zero0 = w->zero[0], zero1 = w->zero[1], zero2 = w->zero[2], over0 = w->over[0], over1 = w->over[1];
 	const double over2 = w->over[2];
 #pragma omp simd
-	for (int i = 0; i < PLUS_WIDTH; i++) {
+	for (int i = 0; i < GOA_WIDTH; i++) {
 		double sine, cosine, over = x / (x * x + k->hold[i]), u = k->u[i], w1, w2;
 		double zero = lane_select(u, from1, zero0, lane_select(u, from2, zero1, zero2));
 		double slope = lane_select(u, from1, over0, lane_select(u, from2, over1, over2));
@@ -143,11 +143,11 @@ static void plus_windowed(const struct plus_packet *k, const struct window *w, d
 	}
 }
 
-static void plus(const struct plus_packet *k, size_t n, const struct edge *e, double s[4][PLUS_WIDTH])
+static void plus(const struct goa_plus_packet *k, size_t n, const struct goa_plus_edge *e, double s[4][GOA_WIDTH])
 {
-	for (const struct plus_packet *end = k + n; k < end; k++) {
+	for (const struct goa_plus_packet *end = k + n; k < end; k++) {
 		const struct window *w = &e->window[k->p];
-		if (e->x * k->clearest > PLUS_ABSORBED)
+		if (e->x * k->clearest > GOA_PLUS_ABSORBED)
 			continue;
 		double all = window_constant(w, k->least, k->most);
 		if (all == 0)
@@ -158,17 +158,17 @@ static void plus(const struct plus_packet *k, size_t n, const struct edge *e, do
 }
 
 /* The partial waves of a strip one by one, in the front half by theta, behind by pi - theta; out: S1 + S2, S1 - S2 (re, im). */
-static void direct(const struct edge_strip *strip, int behind, const double *theta, double out[4][EDGE_WIDTH])
+static void direct(const struct goa_plus_edge_strip *strip, int behind, const double *theta, double out[4][GOA_WIDTH])
 {
-	double c[EDGE_WIDTH], p[EDGE_WIDTH], v[EDGE_WIDTH];
-	double sr[EDGE_WIDTH] = { 0 }, si[EDGE_WIDTH] = { 0 }, dr[EDGE_WIDTH] = { 0 }, di[EDGE_WIDTH] = { 0 };
+	double c[GOA_WIDTH], p[GOA_WIDTH], v[GOA_WIDTH];
+	double sr[GOA_WIDTH] = { 0 }, si[GOA_WIDTH] = { 0 }, dr[GOA_WIDTH] = { 0 }, di[GOA_WIDTH] = { 0 };
 	/* behind, pi_l + tau_l and pi_l - tau_l change places, with (-1)^(l-1) */
 	const double *with_plus = behind ? strip->difference : strip->sum;
 	const double *with_minus = behind ? strip->sum_behind : strip->difference;
-	for (int i = 0; i < EDGE_WIDTH; i++) {
+	for (int i = 0; i < GOA_WIDTH; i++) {
 		double h = sin(theta[i] / 2);
 		c[i] = 2 * h * h;
-		edge_start(strip->first, theta[i], &p[i], &v[i]);
+		goa_plus_edge_start(strip->first, theta[i], &p[i], &v[i]);
 	}
 	for (int k = 0; k < strip->n; k++) {
 		int l = strip->first + k;
@@ -176,7 +176,7 @@ static void direct(const struct edge_strip *strip, int behind, const double *the
 		double xr = with_plus[2 * k] * norm, xi = with_plus[2 * k + 1] * norm, yr = with_minus[2 * k] * norm;
 		double yi = with_minus[2 * k + 1] * norm;
 #pragma omp simd
-		for (int i = 0; i < EDGE_WIDTH; i++) {
+		for (int i = 0; i < GOA_WIDTH; i++) {
 			double cp = c[i] * p[i], plus = f1 * v[i] - f * cp, minus = 2 * p[i] - plus;
 			sr[i] += xr * plus;
 			si[i] += xi * plus;
@@ -186,7 +186,7 @@ static void direct(const struct edge_strip *strip, int behind, const double *the
 			p[i] += v[i];
 		}
 	}
-	for (int i = 0; i < EDGE_WIDTH; i++) {
+	for (int i = 0; i < GOA_WIDTH; i++) {
 		out[behind ? 2 : 0][i] = sr[i];
 		out[behind ? 3 : 1][i] = si[i];
 		out[behind ? 0 : 2][i] = dr[i];
@@ -195,16 +195,16 @@ static void direct(const struct edge_strip *strip, int behind, const double *the
 }
 
 /* Near an axis. */
-static void near_axis(const struct edge *e, const struct edge_packet *k, double s[4][EDGE_WIDTH])
+static void near_axis(const struct goa_plus_edge *e, const struct goa_plus_edge_packet *k, double s[4][GOA_WIDTH])
 {
 	for (int behind = 0; behind < 2; behind++) {
 		int any = 0;
-		for (int i = 0; i < EDGE_WIDTH; i++)
+		for (int i = 0; i < GOA_WIDTH; i++)
 			any |= k->behind[i] == behind;
 		for (int strip = 0; any && strip < e->n; strip++) {
-			double out[4][EDGE_WIDTH];
+			double out[4][GOA_WIDTH];
 			direct(&e->strip[strip], behind, k->folded, out);
-			for (int i = 0; i < EDGE_WIDTH; i++)
+			for (int i = 0; i < GOA_WIDTH; i++)
 				if (k->behind[i] == behind) {
 					s[0][i] += (out[0][i] + out[2][i]) / 2;
 					s[1][i] += (out[1][i] + out[3][i]) / 2;
@@ -213,9 +213,9 @@ static void near_axis(const struct edge *e, const struct edge_packet *k, double 
 				}
 		}
 	}
-	for (int i = 0; e->disc && i < EDGE_WIDTH; i++)
+	for (int i = 0; e->disc && i < GOA_WIDTH; i++)
 		if (!k->behind[i]) {
-			double d = edge_disc(e->disc, k->theta[i]) / 2;
+			double d = goa_plus_edge_disc(e->disc, k->theta[i]) / 2;
 			s[0][i] += d;
 			s[2][i] += d;
 		}
@@ -224,35 +224,35 @@ static void near_axis(const struct edge *e, const struct edge_packet *k, double 
 /* Half a row of a transform: real or imaginary parts. */
 typedef double row __attribute__((vector_size(32), aligned(8), may_alias));
 
-/* Where in a transform EDGE_WIDTH angles are: the row below, and the kernel's weights of the rows from 3 before it on. */
-static void locate(const struct nufft *nufft, const double phi[EDGE_WIDTH], int at[EDGE_WIDTH],
-		   double weight[NUFFT_TAPS][EDGE_WIDTH])
+/* Where in a transform GOA_WIDTH angles are: the row below, and the kernel's weights of the rows from 3 before it on. */
+static void locate(const struct nufft *nufft, const double phi[GOA_WIDTH], int at[GOA_WIDTH],
+		   double weight[NUFFT_TAPS][GOA_WIDTH])
 {
-	double part[EDGE_WIDTH], size = nufft->size;
-	for (int i = 0; i < EDGE_WIDTH; i++) {
+	double part[GOA_WIDTH], size = nufft->size;
+	for (int i = 0; i < GOA_WIDTH; i++) {
 		double turns = phi[i] * (1 / (2 * M_PI)), place = (turns - floor(turns)) * size;
 		at[i] = (int)place;
 		part[i] = place - at[i];
 	}
 	for (int t = 0; t < NUFFT_TAPS; t++)
 #pragma omp simd
-		for (int i = 0; i < EDGE_WIDTH; i++) {
+		for (int i = 0; i < GOA_WIDTH; i++) {
 			double z = (t - 3 - part[i]) * 0.25, inside = 1 - z * z;
 			weight[t][i] = lane_decay(NUFFT_SHAPE * (1 - sqrt(lane_select(0, inside, inside, 0))));
 		}
 }
 
 /* Away from the axes, where d^l_1,+-1 = sqrt(2/(pi nu sin theta)) cos(nu theta - pi/4 - c/nu), nu = l + 1/2. */
-static void far_strip(const struct edge_strip *strip, const struct edge_packet *k, double s[4][EDGE_WIDTH])
+static void far_strip(const struct goa_plus_edge_strip *strip, const struct goa_plus_edge_packet *k, double s[4][GOA_WIDTH])
 {
 	const struct nufft *nufft = &strip->nufft;
-	double nu = strip->about, centre = strip->first + strip->n / 2 + 0.5, phi[EDGE_WIDTH], weight[NUFFT_TAPS][EDGE_WIDTH];
-	double value[8][EDGE_WIDTH];
-	int at[EDGE_WIDTH];
-	for (int i = 0; i < EDGE_WIDTH; i++)
+	double nu = strip->about, centre = strip->first + strip->n / 2 + 0.5, phi[GOA_WIDTH], weight[NUFFT_TAPS][GOA_WIDTH];
+	double value[8][GOA_WIDTH];
+	int at[GOA_WIDTH];
+	for (int i = 0; i < GOA_WIDTH; i++)
 		phi[i] = k->theta[i] + (k->plus[i] + k->minus[i]) / (2 * nu * nu);
 	locate(nufft, phi, at, weight);
-	for (int i = 0; i < EDGE_WIDTH; i++) {
+	for (int i = 0; i < GOA_WIDTH; i++) {
 		/* the sums at phi and -phi */
 		const double *above = nufft->row + 8 * (at[i] - 3);
 		const double *below = nufft->row + 8 * (((nufft->size - at[i]) & (nufft->size - 1)) + 3);
@@ -270,7 +270,7 @@ static void far_strip(const struct edge_strip *strip, const struct edge_packet *
 			value[j][i] = found[j];
 	}
 #pragma omp simd
-	for (int i = 0; i < EDGE_WIDTH; i++) {
+	for (int i = 0; i < GOA_WIDTH; i++) {
 		double shift = (k->plus[i] + k->minus[i]) / (2 * nu * nu);
 		double base = nu * k->theta[i] + (centre - nu) * (k->theta[i] + shift);
 		double sine, cosine, half = k->root[i] / 2;
@@ -289,11 +289,11 @@ static void far_strip(const struct edge_strip *strip, const struct edge_packet *
 	}
 }
 
-/* The disc away from the axes: edge_disc with Hankel's asymptotics. */
-static void far_disc(int n, const struct edge_packet *k, double s[4][EDGE_WIDTH])
+/* The disc away from the axes: goa_plus_edge_disc with Hankel's asymptotics. */
+static void far_disc(int n, const struct goa_plus_edge_packet *k, double s[4][GOA_WIDTH])
 {
 #pragma omp simd
-	for (int i = 0; i < EDGE_WIDTH; i++) {
+	for (int i = 0; i < GOA_WIDTH; i++) {
 		double sum = 0;
 		for (int l = n; l <= n + 1; l++) {
 			double nu = l + 0.5, z = nu * k->theta[i] + k->bend[i] / (8 * nu), w = 1 / z, w2 = w * w, sine, cosine;
@@ -311,24 +311,24 @@ static void far_disc(int n, const struct edge_packet *k, double s[4][EDGE_WIDTH]
 	}
 }
 
-static void waves(const struct edge *e, const struct edge_packet *k, double s[4][EDGE_WIDTH])
+static void waves(const struct goa_plus_edge *e, const struct goa_plus_edge_packet *k, double s[4][GOA_WIDTH])
 {
 	int far = 1, front = 0;
 	for (int strip = 0; strip < e->n; strip++)
-		far &= e->strip[strip].nufft.size && e->strip[strip].first * k->sine > EDGE_FAR;
+		far &= e->strip[strip].nufft.size && e->strip[strip].first * k->sine > GOA_PLUS_EDGE_FAR;
 	if (!far) {
 		near_axis(e, k, s);
 		return;
 	}
 	for (int strip = 0; strip < e->n; strip++)
 		far_strip(&e->strip[strip], k, s);
-	for (int i = 0; i < EDGE_WIDTH; i++)
+	for (int i = 0; i < GOA_WIDTH; i++)
 		front |= !k->behind[i];
 	if (front && e->disc)
 		far_disc(e->disc, k, s);
 }
 
-static double coefficients(const struct edge *e, const struct window *only, struct edge_strip *strip)
+static double coefficients(const struct goa_plus_edge *e, const struct window *only, struct goa_plus_edge_strip *strip)
 {
 	double x = e->x, lost = 0;
 	const struct debye_bounds bounds = debye_bounds(x, e->m);
@@ -340,18 +340,18 @@ static double coefficients(const struct edge *e, const struct window *only, stru
 		debye_phases(lambda_of, x, &outside);
 		debye_phases(lambda_of, x * creal(e->m), &inside);
 		for (int i = 0, k = k0; i < DEBYE_WIDTH && k < strip->n; i++, k++) {
-			double lambda = lambda_of[i], u = lambda / x, w[EDGE_ORDERS + 2], rest;
+			double lambda = lambda_of[i], u = lambda / x, w[GOA_PLUS_EDGE_ORDERS + 2], rest;
 			struct debye d;
 			double complex s[2];
 			int beyond = strip->first + k > e->disc;
 			debye_term(x, e->m, &bounds, lambda, i, &outside, &inside, &d);
-			for (int p = 0; p <= EDGE_ORDERS + 1; p++)
+			for (int p = 0; p <= GOA_PLUS_EDGE_ORDERS + 1; p++)
 				w[p] = p && (only || e->same[p]) ? w[p - 1] : window_at(only ? only : &e->window[p], u);
-			rest = w[EDGE_ORDERS + 1];
+			rest = w[GOA_PLUS_EDGE_ORDERS + 1];
 			for (int j = 0; j < 2; j++) {
 				/* all p >= 1 in closed form with the last one's share, and what the others have more */
 				double complex part = d.t[j], rays = rest * part / (1 - d.i[j]);
-				for (int p = 1; p <= EDGE_ORDERS && fabs(creal(part)) + fabs(cimag(part)) > 1e-6;
+				for (int p = 1; p <= GOA_PLUS_EDGE_ORDERS && fabs(creal(part)) + fabs(cimag(part)) > 1e-6;
 				     p++, part *= d.i[j])
 					rays += (w[p] - rest) * part;
 				s[j] = -(w[0] * (d.r[j] - beyond) + rays) / 2;
@@ -372,7 +372,7 @@ static double coefficients(const struct edge *e, const struct window *only, stru
 	return lost;
 }
 
-static double absorption(const struct edge *e)
+static double absorption(const struct goa_plus_edge *e)
 {
 	double x = e->x, n = creal(e->m), s = cbrt(x / 2) / x, sy = cbrt(n * x / 2) / x, q = 0;
 	if (cimag(e->m) == 0)

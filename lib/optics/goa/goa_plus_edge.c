@@ -84,48 +84,48 @@ static void own_window(struct window *w, double x, double n, int p, double wide,
 		*w = window_one();
 }
 
-static void set_windows(struct edge *e)
+static void set_windows(struct goa_plus_edge *e)
 {
 	double x = e->x, n = creal(e->m), s = cbrt(x / 2) / x, sy = cbrt(n * x / 2) / x;
 	double wide = 1 - WIDE * s, near = 1 - NARROW * s, turn = n - WIDE * sy, begin = fmin(wide, turn);
 	e->n = 1;
 	if (edge_separable(x, e->m, x * (1 + EDGE_TOP * s))) {
 		begin = wide;
-		for (int p = 0; p <= EDGE_ORDERS + 1; p++)
-			own_window(&e->window[p], x, n, p <= EDGE_ORDERS ? p : 0, wide,
-				   p <= EDGE_ORDERS ? near : 1 - (WIDE - 15) * s);
+		for (int p = 0; p <= GOA_PLUS_EDGE_ORDERS + 1; p++)
+			own_window(&e->window[p], x, n, p <= GOA_PLUS_EDGE_ORDERS ? p : 0, wide,
+				   p <= GOA_PLUS_EDGE_ORDERS ? near : 1 - (WIDE - 15) * s);
 	} else if (n + WIDE * sy < wide) {
 		struct window *w = &e->only[0];
 		begin = turn;
 		w->n = 0;
 		piece(w, 0, turn, n - TURN * sy);
 		piece(w, n, n + WIDE * sy, n + TURN * sy);
-		for (int p = 0; p <= EDGE_ORDERS + 1; p++)
+		for (int p = 0; p <= GOA_PLUS_EDGE_ORDERS + 1; p++)
 			e->window[p] = *w;
 		e->only[1].n = 0;
 		piece(&e->only[1], 0, wide, near);
 		piece(&e->window[0], wide, wide, near);
 		e->n = 2;
 	} else {
-		for (int p = 0; p <= EDGE_ORDERS + 1; p++) {
+		for (int p = 0; p <= GOA_PLUS_EDGE_ORDERS + 1; p++) {
 			e->window[p].n = 0;
 			piece(&e->window[p], 0, begin, fmin(near, n - TURN * sy));
 		}
 	}
-	if (begin < 0.05 || (x * fabs(n - 1) < EDGE_SOFT && x < EDGE_SOFT_MAX)) {
+	if (begin < 0.05 || (x * fabs(n - 1) < GOA_PLUS_EDGE_SOFT && x < GOA_PLUS_EDGE_SOFT_MAX)) {
 		e->whole = 1;
 		e->n = 1;
 		e->disc = 0;           /* Hilb's forms are not for so few waves, and are not needed */
-		for (int p = 0; p <= EDGE_ORDERS + 1; p++)
+		for (int p = 0; p <= GOA_PLUS_EDGE_ORDERS + 1; p++)
 			e->window[p] = window_one();
 	}
-	for (int p = 1; p <= EDGE_ORDERS + 1; p++)
+	for (int p = 1; p <= GOA_PLUS_EDGE_ORDERS + 1; p++)
 		e->same[p] = !memcmp(&e->window[p], &e->window[p - 1], sizeof e->window[p]);
 }
 
 /* Room for waves l of u from .. to; their coefficients, and the transform. */
-static int strip_set(const struct goa_lanes *lanes, struct edge *e, struct edge_strip *strip, double from, double to,
-		     double about, const struct window *only)
+static int strip_set(const struct goa_lanes *lanes, struct goa_plus_edge *e, struct goa_plus_edge_strip *strip, double from,
+                     double to, double about, const struct window *only)
 {
 	int first = (int)fmax(floor(from * e->x - 0.5), 1), last = (int)fmax(ceil(to * e->x), 2);
 	size_t n = (size_t)(last - first) + 1;
@@ -145,7 +145,7 @@ static int strip_set(const struct goa_lanes *lanes, struct edge *e, struct edge_
 	strip->difference = strip->sum + 4 * n;
 	e->lost += lanes->coefficients(e, only, strip);
 	strip->nufft.size = 0;
-	if (first < EDGE_FAR)
+	if (first < GOA_PLUS_EDGE_FAR)
 		return 0;
 	double *scaled = strip->sum + 6 * n;
 	for (size_t k = 0; k < 3 * n; k++) {
@@ -156,7 +156,7 @@ static int strip_set(const struct goa_lanes *lanes, struct edge *e, struct edge_
 	return nufft_set(&strip->nufft, (int)n, (const double *[4]){ scaled, scaled + 2 * n, scaled + 4 * n, NULL });
 }
 
-int edge_set(const struct goa_lanes *lanes, struct edge *e, double x, double complex m)
+int goa_plus_edge_set(const struct goa_lanes *lanes, struct goa_plus_edge *e, double x, double complex m)
 {
 	double top = 1 + EDGE_TOP * cbrt(x / 2) / x, begin = 1, focus = 0;
 	e->x = x;
@@ -165,7 +165,7 @@ int edge_set(const struct goa_lanes *lanes, struct edge *e, double x, double com
 	e->whole = 0;
 	e->lost = 0;
 	set_windows(e);
-	for (int p = 0; p <= EDGE_ORDERS + 1; p++) {
+	for (int p = 0; p <= GOA_PLUS_EDGE_ORDERS + 1; p++) {
 		const struct window *w = &e->window[p];
 		if (w->over[0] > 0)
 			begin = fmin(begin, w->zero[0]);
@@ -183,7 +183,7 @@ int edge_set(const struct goa_lanes *lanes, struct edge *e, double x, double com
 	return strip_set(lanes, e, &e->strip[0], focus > 0 ? 0 : begin, top, creal(m) < 1 ? (begin + 1) / 2 : 1, NULL);
 }
 
-void edge_free(struct edge *e)
+void goa_plus_edge_free(struct goa_plus_edge *e)
 {
 	for (int k = 0; k < 2; k++) {
 		free(e->strip[k].sum);
@@ -191,13 +191,13 @@ void edge_free(struct edge *e)
 	}
 }
 
-void edge_aim(int n, const double *theta, struct edge_packet *out)
+void goa_plus_edge_aim(int n, const double *theta, struct goa_plus_edge_packet *out)
 {
-	for (int b = 0; b * EDGE_WIDTH < n; b++) {
-		struct edge_packet *k = &out[b];
+	for (int b = 0; b * GOA_WIDTH < n; b++) {
+		struct goa_plus_edge_packet *k = &out[b];
 		k->sine = 1;
-		for (int i = 0; i < EDGE_WIDTH; i++) {
-			double t = theta[b * EDGE_WIDTH + i < n ? b * EDGE_WIDTH + i : n - 1];
+		for (int i = 0; i < GOA_WIDTH; i++) {
+			double t = theta[b * GOA_WIDTH + i < n ? b * GOA_WIDTH + i : n - 1];
 			double f = fmin(t, 180 - t) * (M_PI / 180);
 			double sine = sin(f), cosine = t > 90 ? -cos(f) : cos(f), r = t * (M_PI / 180);
 			k->theta[i] = r;
@@ -215,7 +215,7 @@ void edge_aim(int n, const double *theta, struct edge_packet *out)
 	}
 }
 
-void edge_start(int l, double theta, double *p, double *v)
+void goa_plus_edge_start(int l, double theta, double *p, double *v)
 {
 	double nu = l + 0.5, both = l * (l + 1.0);
 	if (l == 1 || theta == 0) {
@@ -230,7 +230,7 @@ void edge_start(int l, double theta, double *p, double *v)
 	*v = (both * q * j0(z0) + l * 2 * half * half * *p) / (l + 1);
 }
 
-double edge_disc(int n, double theta)
+double goa_plus_edge_disc(int n, double theta)
 {
 	/* P'_n + P'_(n+1) - (P_n + P_(n+1))/(1 + cos theta) */
 	double sum = 0, st = sin(theta), bend = theta > 1e-3 ? 1 / theta - cos(theta) / st : theta / 3;
