@@ -37,19 +37,19 @@ INLINE void addends(const vec w[WEIGHTS], const vec *a, const vec *b, const vec 
 
 /* Orders [from, to] of a vector of spheres. */
 struct many {
-	struct glass g;
-	struct climb k;
+	struct constants g;
+	struct upward k;
 	vec sum[SUMS], old_a[2], old_b[2];
 };
 
-INLINE void orders(struct many *many, const struct ratios *e, int u, const double *const w[WEIGHTS], int absorb, int near, int from, int to,
+INLINE void orders(struct many *many, const struct downward_orders *e, int u, const double *const w[WEIGHTS], int absorb, int near, int from, int to,
                    int from_x, int from_y)
 {
 	const int with_p = !absorb && !near;
 	struct many m = *many;
 	for (int l = from; l <= to; l++) {
 		int i = l * UNROLL + u;
-		struct fallen f;
+		struct downward f;
 		vec a[2], b[2], t[SUMS], weight[WEIGHTS];
 		for (int j = 0; j < WEIGHTS; j++)
 			weight[j] = each(w[j][l]);
@@ -64,8 +64,8 @@ INLINE void orders(struct many *many, const struct ratios *e, int u, const doubl
 			f.re = e->p.re[i];
 			f.im = e->p.im[i];
 		}
-		climb_to(&m.k, &m.g, with_p, w[L][l], w[W][l - 1], from_x, from_x ? e->x[i - UNROLL] : each(0));
-		waves_of(absorb, near, from_x, from_y, &m.g, weight[L], weight[W], &m.k, &f, a, b, &t[SCA]);
+		upward_to(&m.k, &m.g, with_p, w[L][l], w[W][l - 1], from_x, from_x ? e->x[i - UNROLL] : each(0));
+		coefficients_of(absorb, near, from_x, from_y, &m.g, weight[L], weight[W], &m.k, &f, a, b, &t[SCA]);
 		addends(weight, a, b, m.old_a, m.old_b, t);
 		m.sum[EXT] += t[EXT];
 		m.sum[ASYM] += t[ASYM];
@@ -91,10 +91,10 @@ INLINE void spheres(struct mie_block *b, int first, const double *const w[WEIGHT
 		LANE(s.terms, i) = b->terms[first + i];
 		s.most = b->terms[first + i] > s.most ? b->terms[first + i] : s.most;
 	}
-	struct ratios e = ratios_of(&s, (vec *)b->room, NULL);
+	struct downward_orders e = downward_all(&s, (vec *)b->room, NULL);
 	for (int u = 0; u < UNROLL; u++) {
-		struct many m = { .g = glass_of(absorb, s.x[u], s.m_re[u], s.m_im[u], e.beyond[u], s.terms[u]) };
-		m.k = climb_start(&m.g, !absorb && !near);
+		struct many m = { .g = constants_of(absorb, s.x[u], s.m_re[u], s.m_im[u], e.beyond[u], s.terms[u]) };
+		m.k = upward_start(&m.g, !absorb && !near);
 		int x = e.from_x, y = near ? s.most + 1 : e.from_y, low = x < y ? x : y, high = x < y ? y : x;
 		orders(&m, &e, u, w, absorb, near, 1, low - 1, 0, 0);
 		if (x < y)
@@ -150,12 +150,12 @@ INLINE void store(double *p, vec v) { memcpy(p, &v, sizeof v); }
 
 INLINE void row(const struct mie_row *r, int absorb, int near, int from_x, int from_y)
 {
-	struct glass g = glass_of(absorb, each(r->x), each(r->m_re), each(r->m_im), each(r->beyond), each(INFINITY));
+	struct constants g = constants_of(absorb, each(r->x), each(r->m_re), each(r->m_im), each(r->beyond), each(INFINITY));
 	const int weighted = r->weighted;
 	for (int i = 0; i < r->count; i += LANES) {
-		struct climb k = { .psi_old = load(r->psi + i), .psi = load(r->psi + i + 1),
+		struct upward k = { .psi_old = load(r->psi + i), .psi = load(r->psi + i + 1),
 			.chi_old = load(r->chi + i), .chi = load(r->chi + i + 1) };
-		struct fallen f;
+		struct downward f;
 		vec a[2], b[2], sca, w[WEIGHTS];
 		weights(r->first + i, w);
 		if (!absorb && !near) {
@@ -174,7 +174,7 @@ INLINE void row(const struct mie_row *r, int absorb, int near, int from_x, int f
 			f.re = load(r->re + i);
 			f.im = load(r->im + i);
 		}
-		waves_of(absorb, near, from_x, from_y, &g, w[L], weighted ? w[W] : each(1), &k, &f, a, b, &sca);
+		coefficients_of(absorb, near, from_x, from_y, &g, w[L], weighted ? w[W] : each(1), &k, &f, a, b, &sca);
 		store(r->a_re + i, a[0]);
 		store(r->a_im + i, a[1]);
 		store(r->b_re + i, b[0]);

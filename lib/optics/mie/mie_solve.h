@@ -31,7 +31,7 @@
 /* First order of the downward recurrence that leaves no trace at order n (rounding included) of its start with 0; even. With
  * l = |z| + t |z|^(1/3), psi_l/chi_l falls as e^(-1.89 t^(3/2)) beyond |z|; it must fall by 1e-17 from n on, and a few orders do where |z| is
  * small. Below |z|, where |E_l|^2 = 1 - 2 l Im z / |z|^2 and less, an absorbing sphere forgets the start earlier: where the product of these is e^-45. */
-INLINE int ratios_start(int n, double re, double im)
+INLINE int ratio_downward_start(int n, double re, double im)
 {
 	double z = sqrt(re * re + im * im), edge = lane_cbrt(z), t = (n - z) / edge;
 	double beyond = (n > z ? n : z) + 8 + (int)(edge * (t > 3 ? 14 / sqrt(t) : 8));
@@ -41,14 +41,14 @@ INLINE int ratios_start(int n, double re, double im)
 
 /* What descends by ratios: E_l(z), 1/z = inv, from order `top` (even) to `low`, stored for l <= n + 1. Before its own start, at orders
  * above it, a lane's is 0; least: of these starts. */
-struct fall {
+struct ratio_downward {
 	int top, least, low, n;
 	const vec *inv, *start;
 	vec *e, v[UNROLL];
 };
 
 /* E_{l-1} = -1 / ((2l+1)/z + E_l), two orders to a division. Nothing where the descent is at its end. */
-INLINE void fall_two(struct fall *f)
+INLINE void ratio_downward_two(struct ratio_downward *f)
 {
 	int l = f->top, n = f->n;
 	if (l < 2 || l <= f->low)
@@ -72,17 +72,17 @@ INLINE void fall_two(struct fall *f)
 	f->top = l - 2;
 }
 
-INLINE void fall_to_end(struct fall *f)
+INLINE void ratio_downward_to_end(struct ratio_downward *f)
 {
-	struct fall own = *f;
+	struct ratio_downward own = *f;
 	while (own.top >= 2 && own.top > own.low)
-		fall_two(&own);
+		ratio_downward_two(&own);
 	f->top = own.top;
 }
 
 /* The same for complex z, all of it; |t|^2 is kept off zero alike. Into at_r, at_i besides, E at a lane's own order `at`, none above
  * `most`; 0 where that is above its start. */
-INLINE void ratios_complex(int top, int least, int low, int n, const vec *inv_r, const vec *inv_i, const vec *start, vec *er, vec *ei,
+INLINE void ratio_downward_complex(int top, int least, int low, int n, const vec *inv_r, const vec *inv_i, const vec *start, vec *er, vec *ei,
                            int most, const vec *at, vec *at_r, vec *at_i)
 {
 	vec vr[UNROLL], vi[UNROLL];
@@ -131,23 +131,23 @@ INLINE vec to_one(vec a)
 }
 
 /* Where p_l ~ psi_l(z) descends: 1/z; and the order at which a lane begins, with p = 1 and E given; most, least of these. */
-struct course {
+struct psi_course {
 	vec inv_r[UNROLL], inv_i[UNROLL], at[UNROLL], at_r[UNROLL], at_i[UNROLL];
 	int most, least;
 };
 
 /* Where it is: p_l, p_{l+1}, (2l+1)/z, and re and im of p_l p_{l+1}*. */
-struct descent {
+struct psi_downward {
 	vec vr[UNROLL], vi[UNROLL], tr[UNROLL], ti[UNROLL], kr[UNROLL], ki[UNROLL], re[UNROLL], im[UNROLL];
 };
 
 /* What is kept of it, order l at [(l - base) UNROLL], of orders to n: |p_l|^2, and re and im of p_{l-1} p_l*. */
-struct trail {
+struct psi_products {
 	vec *size, *re, *im;
 	int base, n;
 };
 
-INLINE void descend_one(struct descent *d, const struct course *c, int l, const struct trail *t)
+INLINE void psi_downward_one(struct psi_downward *d, const struct psi_course *c, int l, const struct psi_products *t)
 {
 	EACH(u) {
 		if (l >= c->least) {
@@ -176,9 +176,9 @@ INLINE void descend_one(struct descent *d, const struct course *c, int l, const 
 	}
 }
 
-INLINE struct descent descent_start(void)
+INLINE struct psi_downward psi_downward_start(void)
 {
-	struct descent d;
+	struct psi_downward d;
 	EACH(u)
 		d.vr[u] = d.vi[u] = d.tr[u] = d.ti[u] = d.re[u] = d.im[u] = each(0);
 	return d;
@@ -186,20 +186,20 @@ INLINE struct descent descent_start(void)
 
 /* From order `top` to low + 1, both even. Scaling by powers of 2 changes no digit. One sphere's x, if given, falls meanwhile: neither waits
  * for the other. */
-INLINE void descend(struct descent *state, const struct course *c, int top, int low, const struct trail *t, struct fall *x)
+INLINE void psi_downward(struct psi_downward *state, const struct psi_course *c, int top, int low, const struct psi_products *t, struct ratio_downward *x)
 {
-	struct descent d = *state;
+	struct psi_downward d = *state;
 	for (int l = top; l > low; l -= 2) {
 		EACH(u) {
 			d.kr[u] = (2.0 * l + 1) * c->inv_r[u];
 			d.ki[u] = (2.0 * l + 1) * c->inv_i[u];
 		}
-		descend_one(&d, c, l, t);
+		psi_downward_one(&d, c, l, t);
 		EACH(u) {
 			d.kr[u] = d.kr[u] - 2.0 * c->inv_r[u];
 			d.ki[u] = d.ki[u] - 2.0 * c->inv_i[u];
 		}
-		descend_one(&d, c, l - 1, t);
+		psi_downward_one(&d, c, l - 1, t);
 		EACH(u) {
 			if (l % 8 == 0) {      /* |p| grows by no more than 9 an order, and 3 where it is kept */
 				vec f = to_one(size_of(d.vr[u]) + size_of(d.vi[u]));
@@ -212,13 +212,13 @@ INLINE void descend(struct descent *state, const struct course *c, int top, int 
 			}
 		}
 		if (WIDTH == 1 && x && l % 4 == 0)
-			fall_two(x);
+			ratio_downward_two(x);
 	}
 	*state = d;
 }
 
 /* E_l(x), and d_l in place of E_l(y), for m near 1: inv is 1/x, rise 1/y - 1/x. */
-INLINE void ratios_near(int top, int least, int n, int absorb, const vec *inv, const vec *rise_r, const vec *rise_i, const vec *start,
+INLINE void ratio_downward_near(int top, int least, int n, int absorb, const vec *inv, const vec *rise_r, const vec *rise_i, const vec *start,
                         vec *ex, vec *dr, vec *di)
 {
 	vec v[UNROLL], pr[UNROLL], pi[UNROLL];
@@ -261,10 +261,10 @@ struct spheres {
 };
 
 /* What descends, order l of vector u at [l * UNROLL + u]; and the first orders at which some sphere has l >= x, l >= |y|. */
-struct ratios {
+struct downward_orders {
 	vec *x, *y_re, *y_im;          /* E_l(x), l >= x - 1; E_l(y), l >= |y|; or, m near 1, E_l(x) and d_l of all orders */
-	struct trail p;                /* l < |y|, absorbing spheres only */
-	struct course course;          /* of p */
+	struct psi_products p;                /* l < |y|, absorbing spheres only */
+	struct psi_course course;          /* of p */
 	vec beyond[UNROLL];            /* |y|, rounded up */
 	int from_x, from_y;
 };
@@ -272,11 +272,11 @@ struct ratios {
 #define RATIOS 6                       /* arrays of most + 2 orders in these, or 3 with marks */
 
 /* marks: NULL, or nothing is kept of p but marks[i], where it is at order i MIE_CHUNK, of those below most + MIE_CHUNK. */
-INLINE struct ratios ratios_of(const struct spheres *s, vec *room, struct descent *marks)
+INLINE struct downward_orders downward_all(const struct spheres *s, vec *room, struct psi_downward *marks)
 {
 	size_t rows = ((size_t)s->most + 2) * UNROLL;
-	struct ratios e = { .x = room, .y_re = room + rows, .y_im = room + 2 * rows };
-	struct course *c = &e.course;
+	struct downward_orders e = { .x = room, .y_re = room + rows, .y_im = room + 2 * rows };
+	struct psi_course *c = &e.course;
 	vec inv_x[UNROLL], inv_re[UNROLL], inv_im[UNROLL], start_x[UNROLL], start_y[UNROLL];
 	int top_x = 0, top_y = 0, low_x = INT_MAX, low_y = INT_MAX, n = s->most;
 	c->most = 0;
@@ -285,13 +285,13 @@ INLINE struct ratios ratios_of(const struct spheres *s, vec *room, struct descen
 	for (int i = 0; i < WIDTH; i++) {
 		double x = LANE(s->x, i), re = LANE(s->m_re, i) * x, im = s->absorb ? LANE(s->m_im, i) * x : 0;
 		double y = s->absorb ? sqrt(re * re + im * im) : re;
-		int own = (int)LANE(s->terms, i), start = ratios_start(own, x, 0), beyond = y < 2e9 ? (int)ceil(y) : INT_MAX - 1;
+		int own = (int)LANE(s->terms, i), start = ratio_downward_start(own, x, 0), beyond = y < 2e9 ? (int)ceil(y) : INT_MAX - 1;
 		LANE(start_x, i) = start;
 		top_x = start > top_x ? start : top_x;
 		low_x = start < low_x ? start : low_x;
 		e.from_x = x < e.from_x ? (int)ceil(x) : e.from_x;
 		if (s->absorb || s->near || beyond <= own) {
-			int begin = ratios_start(own, re, im), first = own < beyond || begin < beyond ? begin : beyond - 1;
+			int begin = ratio_downward_start(own, re, im), first = own < beyond || begin < beyond ? begin : beyond - 1;
 			LANE(start_y, i) = begin;
 			low_y = begin < low_y ? begin : low_y;
 			LANE(c->at, i) = first;
@@ -325,12 +325,12 @@ INLINE struct ratios ratios_of(const struct spheres *s, vec *room, struct descen
 			inv_im[u] = -(im / m2 * inv_x[u]);
 			start_y[u] = larger(start_x[u], start_y[u]);
 		}
-		ratios_near(top_x > top_y ? top_x : top_y, low_x > low_y ? low_x : low_y, n, s->absorb, inv_x, inv_re, inv_im, start_y,
+		ratio_downward_near(top_x > top_y ? top_x : top_y, low_x > low_y ? low_x : low_y, n, s->absorb, inv_x, inv_re, inv_im, start_y,
 		            e.x, e.y_re, e.y_im);
 		return e;
 	}
-	struct fall x = { .top = top_x, .least = low_x, .low = e.from_x - 1, .n = n, .inv = inv_x, .start = start_x, .e = e.x };
-	struct fall y = { .top = top_y, .least = low_y, .low = e.from_y - 1, .n = n, .inv = inv_re, .start = start_y, .e = e.y_re };
+	struct ratio_downward x = { .top = top_x, .least = low_x, .low = e.from_x - 1, .n = n, .inv = inv_x, .start = start_x, .e = e.x };
+	struct ratio_downward y = { .top = top_y, .least = low_y, .low = e.from_y - 1, .n = n, .inv = inv_re, .start = start_y, .e = e.y_re };
 	EACH(u)
 		x.v[u] = y.v[u] = each(0);
 	if (s->absorb) {
@@ -338,25 +338,25 @@ INLINE struct ratios ratios_of(const struct spheres *s, vec *room, struct descen
 			c->inv_r[u] = inv_re[u];
 			c->inv_i[u] = inv_im[u];
 		}
-		ratios_complex(top_y, low_y, c->least, n, inv_re, inv_im, start_y, e.y_re, e.y_im, c->most, c->at, c->at_r, c->at_i);
-		struct descent d = descent_start();
+		ratio_downward_complex(top_y, low_y, c->least, n, inv_re, inv_im, start_y, e.y_re, e.y_im, c->most, c->at, c->at_r, c->at_i);
+		struct psi_downward d = psi_downward_start();
 		int l = (c->most + 1) & ~1;
 		if (!marks) {
-			e.p = (struct trail){ room + 3 * rows, room + 4 * rows, room + 5 * rows, 0, n };
-			descend(&d, c, l, 0, &e.p, &x);
+			e.p = (struct psi_products){ room + 3 * rows, room + 4 * rows, room + 5 * rows, 0, n };
+			psi_downward(&d, c, l, 0, &e.p, &x);
 		}
 		for (int low; marks && l > MIE_CHUNK; l = low) {
 			low = (l - 1) / MIE_CHUNK * MIE_CHUNK;
-			descend(&d, c, l, low, &(struct trail){ .n = 0 }, &x);
+			psi_downward(&d, c, l, low, &(struct psi_products){ .n = 0 }, &x);
 			if (low < n + MIE_CHUNK)
 				marks[low / MIE_CHUNK] = d;
 		}
 	} else {
-		for (; WIDTH == 1 && y.top > y.low && x.top > x.low; fall_two(&y))
-			fall_two(&x);
-		fall_to_end(&y);
+		for (; WIDTH == 1 && y.top > y.low && x.top > x.low; ratio_downward_two(&y))
+			ratio_downward_two(&x);
+		ratio_downward_to_end(&y);
 	}
-	fall_to_end(&x);
+	ratio_downward_to_end(&x);
 	return e;
 }
 
@@ -365,16 +365,16 @@ INLINE struct ratios ratios_of(const struct spheres *s, vec *room, struct descen
 #define CHI_MAX 1e120    /* beyond, a_l and b_l are below 1e-240 and chi^2 would overflow */
 
 /* What does not change with the order, of a vector of spheres. */
-struct glass {
+struct constants {
 	vec x, beyond, terms, inv_x, m_re, m_im;
-	vec inv_re, inv_im, norm, fall;      /* 1/m, |m|^2, Re 1/m - 1 */
+	vec inv_re, inv_im, norm, less;      /* 1/m, |m|^2, Re 1/m - 1 */
 	vec c_re, c_im;                      /* (1 - 1/m^2)/x */
 	vec cm_re, cm_im;                    /* |m|^2 times that */
 };
 
-INLINE struct glass glass_of(int absorb, vec x, vec m_re, vec m_im, vec beyond, vec terms)
+INLINE struct constants constants_of(int absorb, vec x, vec m_re, vec m_im, vec beyond, vec terms)
 {
-	struct glass g = { .x = x, .beyond = beyond, .terms = terms, .inv_x = 1.0 / x, .m_re = m_re, .m_im = m_im };
+	struct constants g = { .x = x, .beyond = beyond, .terms = terms, .inv_x = 1.0 / x, .m_re = m_re, .m_im = m_im };
 	if (absorb) {
 		vec m2 = m_re * m_re + m_im * m_im, vr = m_re / m2, vi = -(m_im / m2), v2r = vr * vr - vi * vi, v2i = 2.0 * (vr * vi);
 		g.inv_re = vr;
@@ -384,25 +384,25 @@ INLINE struct glass glass_of(int absorb, vec x, vec m_re, vec m_im, vec beyond, 
 		g.c_im = -v2i * g.inv_x;
 		g.cm_re = g.c_re * m2;
 		g.cm_im = g.c_im * m2;
-		g.fall = (m_re * (1.0 - m_re) - m_im * m_im) / m2;
+		g.less = (m_re * (1.0 - m_re) - m_im * m_im) / m2;
 	} else {
 		g.inv_re = 1.0 / m_re;
 		g.inv_im = g.c_im = g.cm_re = g.cm_im = g.norm = each(0);
 		g.c_re = (m_re - 1.0) * (m_re + 1.0) * (g.inv_re * g.inv_re) * g.inv_x;
-		g.fall = (1.0 - m_re) * g.inv_re;
+		g.less = (1.0 - m_re) * g.inv_re;
 	}
 	return g;
 }
 
 /* Riccati-Bessel functions of two neighbouring orders, old is l - 1; p, of y, where it ascends, and p_{l-1}/m. */
-struct climb {
+struct upward {
 	vec psi_old, psi, chi_old, chi, p_old, p, below;
 };
 
 /* Order 0; p from sin y where it ascends. */
-INLINE struct climb climb_start(const struct glass *g, int with_p)
+INLINE struct upward upward_start(const struct constants *g, int with_p)
 {
-	struct climb k;
+	struct upward k;
 	vec_sincos(g->x, &k.psi, &k.psi_old);
 	k.chi_old = -k.psi;
 	k.chi = k.psi_old;
@@ -414,7 +414,7 @@ INLINE struct climb climb_start(const struct glass *g, int with_p)
 
 /* A step to order l. psi upward while l < x, by ratios beyond (upward it would be lost there; ratios fail where psi passes a zero); chi
  * upward. odd: 2 l - 1; ratio: E_{l-1}(x); from_x: some sphere has l >= x. */
-INLINE void climb_to(struct climb *k, const struct glass *g, int with_p, double l, double odd, int from_x, vec ratio)
+INLINE void upward_to(struct upward *k, const struct constants *g, int with_p, double l, double odd, int from_x, vec ratio)
 {
 	vec w = odd * g->inv_x, psi = w * k->psi - k->psi_old, chi = w * k->chi - k->chi_old;
 	if (from_x)
@@ -431,15 +431,15 @@ INLINE void climb_to(struct climb *k, const struct glass *g, int with_p, double 
 	}
 }
 
-/* What descended to an order, of a vector: as in struct ratios. */
-struct fallen {
+/* What descended to an order, of a vector: as in struct downward_orders. */
+struct downward {
 	vec ex, er, ei, size, re, im;
 };
 
 /* a_l, b_l times `weight`: a[0] real part, a[1] imaginary part; and weight (|a_l|^2 + |b_l|^2), absorbing spheres only. absorb, near: as of
  * spheres; from_x, from_y: some has l >= x, l >= |y|. */
-INLINE void waves_of(int absorb, int near, int from_x, int from_y, const struct glass *g, vec l, vec weight, const struct climb *k,
-                     const struct fallen *e, vec *a, vec *b, vec *sca)
+INLINE void coefficients_of(int absorb, int near, int from_x, int from_y, const struct constants *g, vec l, vec weight, const struct upward *k,
+                     const struct downward *e, vec *a, vec *b, vec *sca)
 {
 	vec psi = k->psi, chi = k->chi, mr = g->m_re, mi = g->m_im;
 	vec far, fai = each(0), fbr, fbi = each(0), sa, sb;                   /* f_a times sa, f_b times sb */
@@ -498,7 +498,7 @@ INLINE void waves_of(int absorb, int near, int from_x, int from_y, const struct 
 		D = fbr * chi - chi_old;
 	}
 	if (near) {                /* but within x only where the error of psi does not count for more */
-		vec p = e->er * g->inv_re + e->ex * g->fall - (l + 1.0) * g->c_re, q = e->er * mr + e->ex * (mr - 1.0);
+		vec p = e->er * g->inv_re + e->ex * g->less - (l + 1.0) * g->c_re, q = e->er * mr + e->ex * (mr - 1.0);
 		if (absorb) {
 			p = p - e->ei * g->inv_im;
 			q = q - e->ei * mi;
