@@ -35,12 +35,12 @@ struct chunk {
 	double wave[4][1 + MIE_CHUNK + MIE_SPARE], sca[MIE_CHUNK + MIE_SPARE];
 };
 
-/* From so many terms on, what descends is computed twice, the second time chunk by chunk, and not kept in more memory than caches hold. */
+/* From so many terms on p is computed twice, the second time chunk by chunk: all of it would not fit into caches. */
 #define TWICE 16384
 
-/* Climb over orders l .. l + count - 1. */
-INLINE void upward_chunk(struct upward *k, const struct constants *g, const struct downward_orders *e, int with_p, int l, int count, int from_x,
-                        struct chunk *c)
+/* Upward over orders l .. l + count - 1. */
+INLINE void upward_chunk(struct upward *k, const struct constants *g, const struct downward_orders *e, int with_p, int l, int count,
+                         int from_x, struct chunk *c)
 {
 	struct upward own = *k;
 	c->psi[0] = own.psi;
@@ -57,9 +57,10 @@ INLINE void upward_chunk(struct upward *k, const struct constants *g, const stru
 }
 
 /* p of the chunk from order l on, again; to n. */
-static struct psi_products psi_downward_chunk(const struct psi_downward *marks, const struct psi_course *course, int l, int n, struct chunk *c)
+static struct psi_products psi_downward_chunk(const struct psi_downward *marks, const struct psi_course *course, int l, int n,
+                                              struct chunk *c)
 {
-	struct psi_products t = { c->size, c->re, c->im, l, n };
+	struct psi_products t = { .size = c->size, .re = c->re, .im = c->im, .base = l, .n = n };
 	int top = (course->most + 1) & ~1, end = l - 1 + MIE_CHUNK;
 	struct psi_downward d = end < top ? marks[end / MIE_CHUNK] : psi_downward_start();
 	psi_downward(&d, course, end < top ? end : top, l - 1, &t, NULL);
@@ -70,9 +71,10 @@ static struct psi_products psi_downward_chunk(const struct psi_downward *marks, 
 static int by_orders(const struct mie_lanes *lanes, double x, double complex m, int n, int weighted,
                      void (*take)(const struct mie_lanes *, const struct mie_row *, void *), void *context)
 {
-	struct spheres s = { { x }, { creal(m) }, { cimag(m) }, { n }, n, cimag(m) > 0, mie_near(m) };
+	struct spheres s = { .x = { x }, .m_re = { creal(m) }, .m_im = { cimag(m) }, .terms = { n }, .most = n, .absorb = cimag(m) > 0,
+		.near = mie_near(m) };
 	int twice = s.absorb && !s.near && n >= TWICE;
-	double *room = malloc(((twice ? 3 : RATIOS) * ((size_t)n + 2) + MIE_SPARE) * sizeof *room);
+	double *room = malloc(((twice ? 3 : DOWNWARD_ARRAYS) * ((size_t)n + 2) + MIE_SPARE) * sizeof *room);
 	struct psi_downward *marks = twice ? malloc(((size_t)n / MIE_CHUNK + 2) * sizeof *marks) : NULL;
 	struct chunk c;
 	if (!room || (twice && !marks)) {
@@ -83,7 +85,7 @@ static int by_orders(const struct mie_lanes *lanes, double x, double complex m, 
 	for (int i = 0; i < 4; i++)
 		c.wave[i][0] = 0;
 	struct downward_orders e = downward_all(&s, room, marks);
-	struct constants g = constants_of(s.absorb, x, creal(m), cimag(m), e.beyond[0], n);
+	const struct constants g = constants_of(s.absorb, x, creal(m), cimag(m), e.beyond[0], n);
 	int with_p = !s.absorb && !s.near;
 	struct upward k = upward_start(&g, with_p);
 	for (int l = 1, count; l <= n; l += count) {
@@ -97,9 +99,10 @@ static int by_orders(const struct mie_lanes *lanes, double x, double complex m, 
 		if (twice)
 			e.p = psi_downward_chunk(marks, &e.course, l, n, &c);
 		int at = l - e.p.base;
-		struct mie_row row = { s.absorb, s.near, l, count, weighted, x, creal(m), cimag(m), e.beyond[0], c.psi, c.chi, c.p,
-			e.x + l, e.y_re + l, e.y_im + l, e.p.size + at, e.p.re + at, e.p.im + at,
-			c.wave[0] + 1, c.wave[1] + 1, c.wave[2] + 1, c.wave[3] + 1, c.sca };
+		struct mie_row row = { .absorbs = s.absorb, .near = s.near, .first = l, .count = count, .weighted = weighted,
+			.x = x, .m_re = creal(m), .m_im = cimag(m), .beyond = e.beyond[0], .psi = c.psi, .chi = c.chi, .p = c.p,
+			.ex = e.x + l, .er = e.y_re + l, .ei = e.y_im + l, .size = e.p.size + at, .re = e.p.re + at, .im = e.p.im + at,
+			.a_re = c.wave[0] + 1, .a_im = c.wave[1] + 1, .b_re = c.wave[2] + 1, .b_im = c.wave[3] + 1, .sca = c.sca };
 		lanes->waves(&row);
 		take(lanes, &row, context);
 		for (int i = 0; i < 4; i++)
