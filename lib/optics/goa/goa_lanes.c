@@ -129,7 +129,7 @@ static void plus_windowed(const struct goa_plus_packet *k, const struct window *
 		double sine, cosine, over = x / (x * x + k->hold[i]), u = k->u[i], w1, w2;
 		double zero = lane_select(u, from1, zero0, lane_select(u, from2, zero1, zero2));
 		double slope = lane_select(u, from1, over0, lane_select(u, from2, over1, over2));
-		double rest = 1 - window_piece(zero, slope, u, &w1, &w2);
+		double rest = 1 - smoothstep(zero, slope, u, &w1, &w2);
 		lane_sincos(x * k->path[i] + k->quarters[i], &sine, &cosine);
 		double c = size[i] * cosine, d = size[i] * sine, g = over * rest, h = over * w1, f = -over * k->e[i] * w2;
 		double re1 = k->f[0][i] * rest - (k->g[1][i] * g + k->h[1][i] * h + k->f[1][i] * f);

@@ -2,6 +2,7 @@
 
 #include "base/ascending.h"
 #include "optics/numerics/gauss.h"
+#include "optics/numerics/smoothstep.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -69,7 +70,7 @@ int goa_norm_grid_new(double complex m, int order, const struct caustic *caustic
 			double complex r1, r2;
 			theta[k] = t * (180 / M_PI);
 			out->weight[k] = 2 * M_PI * sin(t) * half * gauss_weight[i];
-			out->share[k] = most <= ALL ? 1 : window_piece(LAST / most, most / (FULL - LAST), near, &first, &second);
+			out->share[k] = most <= ALL ? 1 : smoothstep(LAST / most, most / (FULL - LAST), near, &first, &second);
 			goa_rays_fresnel(m, cos(t / 2), sin(t / 2), &r1, &r2);
 			out->cosine[k] = cos(t);
 			/* -2 cos i with i = (pi - theta)/2; what is constant is pi/2 of the ray and 3 pi/4 of diffraction */

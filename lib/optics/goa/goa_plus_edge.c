@@ -1,5 +1,6 @@
 #include "optics/goa/goa_plus_edge.h"
 
+#include "optics/goa/debye_bounds.h"
 #include "optics/goa/goa_lanes.h"
 #include "optics/goa/rays.h"
 
@@ -15,17 +16,6 @@
 #define RISE 20        /* widths that W takes at least to rise between a rainbow and the edge */
 #define DEEP 28        /* and inside it */
 #define FOCUS 4        /* an index so near p, in units of 1/sqrt x, focuses the central rays of order p: they are waves too */
-
-int edge_separable(double x, double complex m, double lambda)
-{
-	double complex y = m * x;
-	if (lambda < creal(y) - EDGE_TURN * cbrt(creal(y) / 2))
-		return 1;
-	if (cimag(y) < EDGE_TURN * cbrt(creal(y) / 2))
-		return 0;
-	/* the phase of a Hankel function inside; it turns negative where waves are evanescent */
-	return cimag(csqrt((y - lambda) * (y + lambda)) - lambda * cacos(lambda / y)) > 3;
-}
 
 static struct window window_one(void)
 {
@@ -89,7 +79,7 @@ static void set_windows(struct goa_plus_edge *e)
 	double x = e->x, n = creal(e->m), s = cbrt(x / 2) / x, sy = cbrt(n * x / 2) / x;
 	double wide = 1 - WIDE * s, near = 1 - NARROW * s, turn = n - WIDE * sy, begin = fmin(wide, turn);
 	e->n = 1;
-	if (edge_separable(x, e->m, x * (1 + EDGE_TOP * s))) {
+	if (debye_separable(x, e->m, x * (1 + DEBYE_TOP * s))) {
 		begin = wide;
 		for (int p = 0; p <= GOA_PLUS_EDGE_ORDERS + 1; p++)
 			own_window(&e->window[p], x, n, p <= GOA_PLUS_EDGE_ORDERS ? p : 0, wide,
@@ -158,7 +148,7 @@ static int strip_set(const struct goa_lanes *lanes, struct goa_plus_edge *e, str
 
 int goa_plus_edge_set(const struct goa_lanes *lanes, struct goa_plus_edge *e, double x, double complex m)
 {
-	double top = 1 + EDGE_TOP * cbrt(x / 2) / x, begin = 1, focus = 0;
+	double top = 1 + DEBYE_TOP * cbrt(x / 2) / x, begin = 1, focus = 0;
 	e->x = x;
 	e->m = m;
 	e->disc = (int)x;

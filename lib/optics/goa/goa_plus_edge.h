@@ -7,7 +7,7 @@
 
 #include "base/cmplx.h"
 #include "optics/goa/rays.h"
-#include "optics/numerics/lane_math.h"
+#include "optics/numerics/smoothstep.h"
 #include "optics/numerics/nufft.h"
 
 #include <stddef.h>
@@ -45,18 +45,6 @@ struct goa_plus_edge {
 	struct window only[2];     /* the part of W_0 that each strip has, where there are two */
 };
 
-/* window_piece - W and its first two derivatives by u, in a piece. */
-static inline double window_piece(double zero, double over, double u, double *first, double *second)
-{
-	double t = (u - zero) * over;
-	t = lane_select(t, 0, 0, t);
-	t = lane_select(t, 1, t, 1);
-	double r = 1 - t, tr = t * r;
-	*first = 140 * tr * tr * tr * over;
-	*second = 420 * tr * tr * (r - t) * (over * over);
-	return t * t * (t * t) * (35 - t * (84 - t * (70 - 20 * t)));
-}
-
 /* window_at - W at u. */
 static inline double window_at(const struct window *w, double u)
 {
@@ -64,24 +52,18 @@ static inline double window_at(const struct window *w, double u)
 	int k = w->n - 1;
 	while (k > 0 && u < w->from[k])
 		k--;
-	return window_piece(w->zero[k], w->over[k], u, &first, &second);
+	return smoothstep(w->zero[k], w->over[k], u, &first, &second);
 }
 
 /* window_constant - W, if it is 0 throughout [least, most] or 1 throughout, else -1. */
 double window_constant(const struct window *w, double least, double most);
 
-#define EDGE_TURN 5        /* widths (z/2)^(1/3) about a turning point z where Airy functions are needed */
-#define EDGE_TOP 6         /* the same from the edge to where waves end */
 #define GOA_PLUS_EDGE_FAR 16        /* (l + 1/2) sin theta from which on angular functions are cosines */
 
 /* For x |n - 1| below this rays are not distinct from what passes by: all is waves, up to x = GOA_PLUS_EDGE_SOFT_MAX, where it
  * would take too long. */
 #define GOA_PLUS_EDGE_SOFT 60
 #define GOA_PLUS_EDGE_SOFT_MAX 2e4
-
-/* edge_separable - whether the orders p can be told apart at lambda: it lies inside the turning point |m| x of the wave within
- * the sphere by more than the width of that point, or absorption leaves nothing of those inside. */
-int edge_separable(double x, double complex m, double lambda);
 
 struct goa_lanes;
 
