@@ -1,6 +1,6 @@
 #include "optics/goa/goa_plus.h"
 
-#include "optics/goa/goa_lanes.h"
+#include "optics/goa/goa_plus_lanes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 
 struct goa_plus {
 	double complex m;
-	const struct goa_lanes *lanes;
+	const struct goa_plus_lanes *lanes;
 	struct goa_plus_rays axes, asked;
 };
 
@@ -18,7 +18,7 @@ struct goa_plus *goa_plus_new(double complex m)
 	if (!g)
 		return NULL;
 	g->m = m;
-	g->lanes = goa_lanes();
+	g->lanes = goa_plus_lanes();
 	if (goa_plus_rays_find(m, 2, (double[]){ 0, 180 }, &g->axes)) {
 		free(g);
 		return NULL;
@@ -43,20 +43,20 @@ int goa_plus_aim(struct goa_plus *g, int n, const double *theta)
 	return goa_plus_rays_find(g->m, n, theta, &g->asked);
 }
 
-static void amplitudes(const struct goa_lanes *lanes, const struct goa_plus_rays *r, const struct goa_plus_edge *e,
+static void amplitudes(const struct goa_plus_lanes *lanes, const struct goa_plus_rays *r, const struct goa_plus_edge *e,
                        double complex *s1, double complex *s2)
 {
 	for (int b = 0, from = 0; from < r->n; b++, from += GOA_WIDTH) {
 		double s[4][GOA_WIDTH] = { { 0 } };
 		lanes->waves(e, &r->edge[b], s);
-		if (!e->whole)
-			lanes->plus(&r->packet[r->first[b]], r->first[b + 1] - r->first[b], e, s);
+		if (!e->windows.whole)
+			lanes->rays(&r->packet[r->first[b]], r->first[b + 1] - r->first[b], e, s);
 		for (int i = 0; i < GOA_WIDTH && from + i < r->n; i++) {
 			s1[from + i] = CMPLX(s[0][i], s[1][i]);
 			s2[from + i] = CMPLX(s[2][i], s[3][i]);
 		}
 	}
-	if (!e->whole)
+	if (!e->windows.whole)
 		goa_plus_caustics_add(r, e, s1, s2);
 }
 
@@ -85,7 +85,7 @@ double goa_plus_error(double x, double complex m)
 {
 	double n = creal(m);
 	/* where an index near 1 leaves rays that are not distinct, beyond what is summed as waves */
-	if (x > GOA_PLUS_EDGE_SOFT_MAX && x * fabs(n - 1) < GOA_PLUS_EDGE_SOFT)
+	if (x > GOA_PLUS_SOFT_MAX && x * fabs(n - 1) < GOA_PLUS_SOFT)
 		return 1;
 	/* resonances of a small sphere of high index, a little beside their places; what orders left out hold between strong mirrors */
 	return fmin(1, 0.005 + (0.1 + 2 * fmax(n - 1, 0)) / x + 0.0035 * fmax(n - 2.5, 0));

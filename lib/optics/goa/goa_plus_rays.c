@@ -271,7 +271,7 @@ int goa_plus_rays_find(double complex m, int n, const double *theta, struct goa_
 	for (int b = 0; b < blocks; b++) {
 		int lanes = n - b * GOA_WIDTH < GOA_WIDTH ? n - b * GOA_WIDTH : GOA_WIDTH;
 		out->first[b] = used;
-		for (int p = 0; p <= GOA_PLUS_EDGE_ORDERS; p++) {
+		for (int p = 0; p <= GOA_PLUS_ORDERS; p++) {
 			int most = 0;
 			for (int k = 0; k < lanes; k++) {
 				int angle = b * GOA_WIDTH + k;
