@@ -57,7 +57,7 @@ static void amplitudes(const struct goa_plus_lanes *lanes, const struct goa_plus
 		}
 	}
 	if (!e->windows.whole)
-		goa_plus_caustics_add(r, e, s1, s2);
+		goa_plus_caustics_add(&r->caustics, e, s1, s2);
 }
 
 int goa_plus_at(const struct goa_plus *g, double x, double complex *s1, double complex *s2, struct efficiencies *q)
