@@ -11,6 +11,11 @@
  * at z. */
 void debye_order_amplitude(int p, double complex m, double complex u, double epsilon, double complex f[2]);
 
+/* debye_order_chord - phase path over x of one chord at u for complex m, 2 [sqrt(m^2 - u^2) - u (arccos(u/m) - arccos(u/n))]: along the
+ * ray of the real index n, and exact to first order beyond it; 2 sqrt(n^2 - u^2) for real m. Where u is real its imaginary part is not
+ * negative. Source: the physics of Guo et al. 2022, appendix C, improved. */
+double complex debye_order_chord(double complex m, double complex u);
+
 /* debye_order_path - phase over x of p chords less the way saved outside, as rays.h has it, at u; for complex m along the ray of
  * the real index. */
 double complex debye_order_path(int p, double complex m, double complex u);

@@ -1,20 +1,15 @@
 #include "optics/goa/goa.h"
 
-#include "optics/numerics/gauss.h"
 #include "optics/goa/goa_norm.h"
+#include "optics/goa/impact_quadrature.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#define PANELS 24      /* of the quadrature of absorption, on either side of the critical angle */
+#define PANELS 24      /* of the quadrature over the impact parameter */
 #define GLORY 4        /* highest order looked at for forward glories */
 #define GRIDS 26       /* sizes up to 2^0 .. 2^25 */
 #define CHUNK 4096     /* angles of goa_amplitudes whose rays are held at once */
-
-/* Where light may enter an absorbing sphere: a node of a quadrature over the impact parameter. */
-struct entry {
-	double weight, reflected[2], chord;      /* s ds; |R_j|^2; attenuation along a chord, infinite where none leads on */
-};
 
 struct goa {
 	double complex m;
@@ -24,8 +19,8 @@ struct goa {
 	struct goa_rays asked, back;
 	struct goa_beam *front;         /* forward up to GLORY, for the estimate of errors */
 	int fronts;
-	struct entry entry[2 * PANELS * GAUSS];
-	int entries;                    /* 0: does not absorb */
+	struct impact impact[IMPACT_NODES(PANELS)];
+	int impacts;                    /* 0: does not absorb */
 	struct goa_norm_grid grid[GRIDS];    /* for the norm, by size */
 };
 
@@ -67,29 +62,6 @@ static double integral(struct goa *g, int interfere, double x, double *along)
 	return goa_norm_grid_sum(g->lanes, grid, interfere, x, cap, along);
 }
 
-/* The quadrature of absorption, in the angle of incidence. */
-static int enter(double complex m, struct entry *out)
-{
-	double n = creal(m), edge = n < 1 ? asin(n) : M_PI / 2;
-	int k = 0;
-	for (int panel = 0; panel < 2 * PANELS; panel++) {
-		int inside = panel < PANELS;
-		double width = (inside ? edge : M_PI / 2 - edge) / PANELS;
-		double lo = inside ? width * panel : edge + width * (panel - PANELS);
-		if (width == 0)
-			break;
-		for (int j = 0; j < GAUSS; j++) {
-			double i = lo + width * (1 + gauss_node[j]) / 2, s = sin(i), c = cos(i);
-			struct ray r = { .sin_i = s, .cos_i = c };
-			double complex r1, r2;
-			goa_rays_fresnel(m, s, c, &r1, &r2);
-			out[k++] = (struct entry){ gauss_weight[j] * width / 2 * s * c, { creal(r1 * conj(r1)), creal(r2 * conj(r2)) },
-			                           inside ? cimag(goa_chord(m, &r)) : INFINITY };
-		}
-	}
-	return k;
-}
-
 struct goa *goa_new(double complex m, int order)
 {
 	struct goa *g = calloc(1, sizeof *g);
@@ -98,7 +70,7 @@ struct goa *goa_new(double complex m, int order)
 	g->m = m;
 	g->order = order;
 	g->lanes = goa_lanes();
-	g->entries = cimag(m) == 0 ? 0 : enter(m, g->entry);
+	g->impacts = cimag(m) == 0 ? 0 : impact_quadrature(m, PANELS, g->impact);
 	int most = order > GLORY ? order : GLORY;
 	for (int p = 0; p <= most; p++)
 		g->caustic[p] = rays_caustic(creal(m), p);
@@ -220,13 +192,13 @@ static double extinction(const struct goa *g, double x, double *missing)
 static double absorption(const struct goa *g, double x)
 {
 	double q = 0;
-	for (int k = 0; k < g->entries; k++) {
-		const struct entry *e = &g->entry[k];
+	for (int k = 0; k < g->impacts; k++) {
+		const struct impact *e = &g->impact[k];
 		double lost = -expm1(-2 * x * e->chord), sum = 0;
 		for (int j = 0; j < 2; j++)
 			if (e->reflected[j] < 1)
 				sum += (1 - e->reflected[j]) * lost / (1 - e->reflected[j] * (1 - lost));
-		q += e->weight * sum;
+		q += e->weight / 2 * sum;
 	}
 	return q;
 }

@@ -21,18 +21,12 @@ struct gathered {
 	} found[RAYS];
 };
 
-/* sqrt(D). */
-static double spread(const struct ray *r)
-{
-	return r->p ? sqrt(r->ratio * r->cos_i / r->slope) : 0.5;
-}
-
 /* Whether a ray is nothing, whatever the size; or at the end of a family where it has no amplitude. */
 static int faint(const struct goa_plus_direction *d, const struct ray *r)
 {
 	double complex f[2];
 	debye_order_amplitude(d->p, d->m, r->sin_i, 0, f);
-	return !((cabs(f[0]) + cabs(f[1])) * spread(r) >= NOTHING);
+	return !((cabs(f[0]) + cabs(f[1])) * rays_spread(r) >= NOTHING);
 }
 
 static void keep(struct gathered *g, const struct ray *r, double from)
@@ -99,7 +93,7 @@ static void put(struct goa_plus_packet *k, int lane, const struct gathered *g, i
 	k->fades |= k->fade[lane] != 0;
 	k->quarters[lane] = r->eighths / 2.0;
 	k->from[lane] = g->found[i].from;
-	k->spread[lane] = fmin(spread(r), 1e15);
+	k->spread[lane] = fmin(rays_spread(r), 1e15);
 	k->e[lane] = fmax(fmin(t->e, 1e15), -1e15);
 	double f2 = 0, g2 = 0;
 	for (int j = 0; j < 2; j++) {

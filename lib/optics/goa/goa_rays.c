@@ -1,5 +1,6 @@
 #include "optics/goa/goa_rays.h"
 
+#include "optics/goa/debye_order.h"
 #include "optics/goa/goa.h"
 
 #include <stdlib.h>
@@ -17,18 +18,6 @@ void goa_rays_fresnel(double complex m, double sin_i, double cos_i, double compl
 	}
 	*r1 = (cos_i - m * ct) / (cos_i + m * ct);
 	*r2 = (m * cos_i - ct) / (m * cos_i + ct);
-}
-
-/* Phase path of one chord over x: 2 [sqrt(m^2 - s^2) - s (arccos(s/m) - arccos(s/n))], s = sin i; 2 n cos t for real m.
- * It keeps the ray of the real index and is exact to first order beyond it (physics of appendix C, improved). */
-double complex goa_chord(double complex m, const struct ray *r)
-{
-	if (cimag(m) == 0)
-		return 2 * r->q;
-	double n = creal(m), s = r->sin_i;
-	double complex root = csqrt(m * m - s * s), bend = s * (cacos(s / m) - acos(fmin(s / n, 1)));
-	double complex path = 2 * (root - bend);
-	return CMPLX(creal(path), fmax(cimag(path), 0));
 }
 
 int goa_rays_trace(double complex m, int order, const struct caustic *caustic, double theta, struct goa_beam *out)
@@ -51,7 +40,9 @@ int goa_rays_trace(double complex m, int order, const struct caustic *caustic, d
 				continue;
 			b->f1 = f1;
 			b->f2 = f2;
-			b->path = (p ? p * goa_chord(m, r) : 0) - 2 * r->cos_i;
+			/* q and cos i have digits that u has lost */
+			double complex chord = cimag(m) == 0 ? 2 * r->q : debye_order_chord(m, r->sin_i);
+			b->path = (p ? p * chord : 0) - 2 * r->cos_i;
 			b->ray = *r;
 			n++;
 		}
@@ -75,7 +66,7 @@ static double settled(const struct ray *r, const struct caustic *c)
 
 static void put(struct goa_packet *k, int lane, const struct goa_beam *b, const struct caustic *caustic)
 {
-	double spread = b->ray.p ? sqrt(b->ray.ratio * b->ray.cos_i / b->ray.slope) : 0.5;
+	double spread = rays_spread(&b->ray);
 	k->path[lane] = creal(b->path) * M_2_PI;
 	k->quarters[lane] = b->ray.eighths / 2.0;
 	k->fade[lane] = cimag(b->path);

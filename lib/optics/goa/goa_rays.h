@@ -65,9 +65,6 @@ static inline double goa_rays_spread(double x, const struct ray *r, const struct
 /* goa_rays_fresnel - amplitudes R_1 (perpendicular), R_2 (parallel); c_t = sqrt(1 - sin^2 i/m^2), Im c_t >= 0. */
 void goa_rays_fresnel(double complex m, double sin_i, double cos_i, double complex *r1, double complex *r2);
 
-/* goa_chord - phase path of one chord over x. */
-double complex goa_chord(double complex m, const struct ray *r);
-
 /* goa_rays_trace - all rays of order p <= order at theta (degrees), but those too faint to matter; returns how many. */
 int goa_rays_trace(double complex m, int order, const struct caustic *caustic, double theta, struct goa_beam *out);
 
