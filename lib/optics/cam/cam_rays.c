@@ -34,9 +34,8 @@ static void find_glories(double complex m, struct cam_rays *c)
 			if (cabs(f[0] + f[1]) < FAINT)
 				continue;
 			c->glory[c->glories++] = (struct cam_glory){
-				-2 * u * (f[0] + f[1]) * sqrt(2 * M_PI * r->cos_i) * cexp(I * M_PI_4 * (r->eighths + 1)),
-				debye_order_path(p, m, u),
-				u, r->slope, 2 * p * u * (n * n - 1) / q3 };
+				.amplitude = -2 * u * (f[0] + f[1]) * sqrt(2 * M_PI * r->cos_i) * cexp(I * M_PI_4 * (r->eighths + 1)),
+				.path = debye_order_path(p, m, u), .u = u, .slope = r->slope, .bend = 2 * p * u * (n * n - 1) / q3 };
 		}
 	}
 }
@@ -48,7 +47,7 @@ static void find_polygons(double complex m, struct cam_rays *c)
 	double n = creal(m);
 	for (int k = 3; k <= CAM_ORDER; k++)
 		for (int turns = 1; 2 * turns < k; turns++) {
-			double t = M_PI_2 - M_PI * turns / k, u = n * sin(t), q = n * cos(t), cos_i = sqrt(fmax(1 - u * u, 0));
+			double t = M_PI_2 - M_PI * turns / k, u = n * sin(t), q = n * cos(t);
 			double angle = M_PI - 2 * t, out = M_PI - 2 * asin(fmin(u, 1));
 			double common = -2 * u * sqrt(M_PI * q / k) * (turns % 2 ? -1 : 1);
 			double complex f0[2], f1[2], f2[2], turned = cexp(I * M_PI_4 * (1 - 2 * k));

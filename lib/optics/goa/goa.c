@@ -4,7 +4,6 @@
 #include "optics/goa/impact_quadrature.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #define PANELS 24      /* of the quadrature over the impact parameter */
 #define GLORY 4        /* highest order looked at for forward glories */
@@ -39,11 +38,11 @@ static void amplitudes(const struct goa *g, const struct goa_rays *r, double x, 
 {
 	struct goa_cap cap[GOA_ORDER_MAX + 1];
 	caps(g, x, cap);
-	for (int b = 0, from = 0; from < r->n; b++, from += GOA_WIDTH) {
+	for (int b = 0, from = 0; from < r->blocks.n; b++, from += GOA_WIDTH) {
 		double s[4][GOA_WIDTH] = { { 0 } }, d[GOA_WIDTH];
-		g->lanes->coherent(&r->packet[r->first[b]], r->first[b + 1] - r->first[b], x, cap, s);
+		g->lanes->coherent(&r->packet[r->blocks.first[b]], r->blocks.first[b + 1] - r->blocks.first[b], x, cap, s);
 		g->lanes->diffraction(&r->angles[b], x, d);
-		for (int i = 0; i < GOA_WIDTH && from + i < r->n; i++) {
+		for (int i = 0; i < GOA_WIDTH && from + i < r->blocks.n; i++) {
 			s1[from + i] = CMPLX(s[0][i] + d[i], s[1][i]);
 			s2[from + i] = CMPLX(s[2][i] + d[i], s[3][i]);
 		}
@@ -56,7 +55,7 @@ static double integral(struct goa *g, int interfere, double x, double *along)
 	int level = (int)fmin(fmax(ceil(log2(x)), 0), GRIDS - 1);
 	struct goa_norm_grid *grid = &g->grid[level];
 	struct goa_cap cap[GOA_ORDER_MAX + 1];
-	if (!grid->rays.n && goa_norm_grid_new(g->m, g->order, g->caustic, ldexp(1, level), grid))
+	if (!grid->rays.blocks.n && goa_norm_grid_new(g->m, g->order, g->caustic, ldexp(1, level), grid))
 		return -1;
 	caps(g, x, cap);
 	return goa_norm_grid_sum(g->lanes, grid, interfere, x, cap, along);
@@ -97,7 +96,7 @@ void goa_free(struct goa *g)
 
 int goa_aim(struct goa *g, int n, const double *theta)
 {
-	if (n && n == g->asked.n && !memcmp(theta, g->asked.theta, (size_t)n * sizeof *theta))
+	if (angle_blocks_are(&g->asked.blocks, n, theta))
 		return 0;
 	goa_rays_free(&g->asked);
 	return goa_rays_find(g->m, g->order, g->caustic, n, theta, &g->asked);
@@ -117,11 +116,11 @@ int goa_incoherent(struct goa *g, double x, double *i1, double *i2, double *norm
 	if (*norm < 0)
 		return -1;
 	caps(g, x, cap);
-	for (int b = 0, from = 0; from < r->n; b++, from += GOA_WIDTH) {
+	for (int b = 0, from = 0; from < r->blocks.n; b++, from += GOA_WIDTH) {
 		double s[2][GOA_WIDTH] = { { 0 } }, d[GOA_WIDTH];
-		g->lanes->incoherent(&r->packet[r->first[b]], r->first[b + 1] - r->first[b], x, cap, s);
+		g->lanes->incoherent(&r->packet[r->blocks.first[b]], r->blocks.first[b + 1] - r->blocks.first[b], x, cap, s);
 		g->lanes->diffraction(&r->angles[b], x, d);
-		for (int i = 0; i < GOA_WIDTH && from + i < r->n; i++) {
+		for (int i = 0; i < GOA_WIDTH && from + i < r->blocks.n; i++) {
 			i1[from + i] = s[0][i] + d[i] * d[i];
 			i2[from + i] = s[1][i] + d[i] * d[i];
 		}

@@ -116,21 +116,17 @@ static void put(struct goa_plus_packet *k, int lane, const struct gathered *g, i
 
 int goa_plus_rays_find(double complex m, int n, const double *theta, struct goa_plus_rays *out)
 {
-	int blocks = (n + GOA_WIDTH - 1) / GOA_WIDTH;
+	int blocks = angle_blocks_count(n);
 	size_t used = 0, room = 0;
 	struct gathered *g = malloc(GOA_WIDTH * sizeof *g);
 	memset(out, 0, sizeof *out);
-	out->n = n;
-	out->theta = malloc((size_t)(n ? n : 1) * sizeof *out->theta);
-	out->first = malloc(((size_t)blocks + 1) * sizeof *out->first);
 	out->edge = malloc((size_t)(blocks ? blocks : 1) * sizeof *out->edge);
-	if (!g || !out->theta || !out->first || !out->edge)
+	if (!g || !out->edge || angle_blocks_new(n, theta, &out->blocks))
 		goto no_memory;
 	goa_plus_edge_aim(n, theta, out->edge);
-	memcpy(out->theta, theta, (size_t)n * sizeof *theta);
 	for (int b = 0; b < blocks; b++) {
 		int lanes = n - b * GOA_WIDTH < GOA_WIDTH ? n - b * GOA_WIDTH : GOA_WIDTH;
-		out->first[b] = used;
+		out->blocks.first[b] = used;
 		for (int p = 0; p <= GOA_PLUS_ORDERS; p++) {
 			int most = 0;
 			for (int k = 0; k < lanes; k++) {
@@ -141,13 +137,8 @@ int goa_plus_rays_find(double complex m, int n, const double *theta, struct goa_
 					goto no_memory;
 				most = g[k].n > most ? g[k].n : most;
 			}
-			if (used + (size_t)most > room) {
-				room = 2 * room + (size_t)most;
-				struct goa_plus_packet *more = realloc(out->packet, room * sizeof *more);
-				if (!more)
-					goto no_memory;
-				out->packet = more;
-			}
+			if (angle_blocks_room(&out->packet, &room, used, (size_t)most, sizeof *out->packet))
+				goto no_memory;
 			for (int i = 0; i < most; i++) {
 				struct goa_plus_packet *k = &out->packet[used++];
 				memset(k, 0, sizeof *k);
@@ -163,7 +154,7 @@ int goa_plus_rays_find(double complex m, int n, const double *theta, struct goa_
 			}
 		}
 	}
-	out->first[blocks] = used;
+	out->blocks.first[blocks] = used;
 	free(g);
 	return 0;
 no_memory:
@@ -174,8 +165,7 @@ no_memory:
 
 void goa_plus_rays_free(struct goa_plus_rays *r)
 {
-	free(r->theta);
-	free(r->first);
+	angle_blocks_free(&r->blocks);
 	free(r->packet);
 	free(r->edge);
 	goa_plus_caustics_free(&r->caustics);

@@ -5,6 +5,7 @@
 #ifndef OPTICS_GOA_PLUS_RAYS_H
 #define OPTICS_GOA_PLUS_RAYS_H
 
+#include "optics/goa/angle_blocks.h"
 #include "optics/goa/goa_plus_caustics.h"
 #include "optics/goa/goa_plus_edge.h"
 
@@ -23,9 +24,7 @@ struct goa_plus_packet {
 };
 
 struct goa_plus_rays {
-	int n;                     /* angles */
-	double *theta;
-	size_t *first;             /* first packet of each GOA_WIDTH angles, one more than there are such */
+	struct angle_blocks blocks;
 	struct goa_plus_packet *packet;
 	struct goa_plus_edge_packet *edge;  /* of the same angles */
 	struct goa_plus_caustics caustics;

@@ -84,46 +84,37 @@ static void put(struct goa_packet *k, int lane, const struct goa_beam *b, const 
 
 int goa_rays_find(double complex m, int order, const struct caustic *caustic, int n, const double *theta, struct goa_rays *out)
 {
-	int blocks = (n + GOA_WIDTH - 1) / GOA_WIDTH, beams = 0;
+	int blocks = angle_blocks_count(n), beams = 0;
 	size_t used = 0, room = 0;
 	for (int p = 0; p <= order; p++)
 		beams += RAYS_MAX(p);
 	struct goa_beam *beam = malloc((size_t)beams * sizeof *beam);
 	memset(out, 0, sizeof *out);
-	out->n = n;
-	out->theta = malloc((size_t)(n ? n : 1) * sizeof *out->theta);
-	out->first = malloc(((size_t)blocks + 1) * sizeof *out->first);
 	out->angles = calloc((size_t)(blocks ? blocks : 1), sizeof *out->angles);
-	if (!beam || !out->theta || !out->first || !out->angles)
+	if (!beam || !out->angles || angle_blocks_new(n, theta, &out->blocks))
 		goto no_memory;
-	memcpy(out->theta, theta, (size_t)n * sizeof *theta);
 	for (int b = 0; b < blocks; b++) {
-		out->first[b] = used;
+		out->blocks.first[b] = used;
 		for (int lane = 0; lane < GOA_WIDTH && b * GOA_WIDTH + lane < n; lane++) {
 			double t = theta[b * GOA_WIDTH + lane];
 			int k = goa_rays_trace(m, order, caustic, t, beam);
-			size_t end = out->first[b] + (size_t)k;
+			size_t end = out->blocks.first[b] + (size_t)k;
 			if (t < 90) {
 				double sine = sin(t * (M_PI / 180));
 				out->angles[b].sine[lane] = sine;
 				out->angles[b].root[lane] = sqrt(2 / (M_PI * fmax(sine, 1e-100))) / fmax(sine, 1e-100);
 			}
-			if (end > room) {
-				room = 2 * room + (size_t)k;
-				struct goa_packet *more = realloc(out->packet, room * sizeof *more);
-				if (!more)
-					goto no_memory;
-				out->packet = more;
-			}
+			if (end > used && angle_blocks_room(&out->packet, &room, used, end - used, sizeof *out->packet))
+				goto no_memory;
 			for (; used < end; used++) {
 				memset(&out->packet[used], 0, sizeof out->packet[used]);
 				out->packet[used].clearest = INFINITY;
 			}
 			for (int i = 0; i < k; i++)
-				put(&out->packet[out->first[b] + (size_t)i], lane, &beam[i], caustic);
+				put(&out->packet[out->blocks.first[b] + (size_t)i], lane, &beam[i], caustic);
 		}
 	}
-	out->first[blocks] = used;
+	out->blocks.first[blocks] = used;
 	free(beam);
 	return 0;
 no_memory:
@@ -134,8 +125,7 @@ no_memory:
 
 void goa_rays_free(struct goa_rays *r)
 {
-	free(r->theta);
-	free(r->first);
+	angle_blocks_free(&r->blocks);
 	free(r->packet);
 	free(r->angles);
 	memset(r, 0, sizeof *r);

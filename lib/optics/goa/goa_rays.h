@@ -2,6 +2,7 @@
 #ifndef OPTICS_GOA_RAYS_H
 #define OPTICS_GOA_RAYS_H
 
+#include "optics/goa/angle_blocks.h"
 #include "optics/goa/rays.h"
 
 #include "base/cmplx.h"
@@ -35,9 +36,7 @@ struct goa_angles {
 };
 
 struct goa_rays {
-	int n;                       /* angles */
-	double *theta;               /* degrees */
-	size_t *first;               /* first packet of each GOA_WIDTH angles, one more than there are such */
+	struct angle_blocks blocks;
 	struct goa_packet *packet;
 	struct goa_angles *angles;
 };
