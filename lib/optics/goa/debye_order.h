@@ -31,8 +31,8 @@ struct debye_order_terms {
 /* debye_order_terms - for the ray of order p at u that leaves at theta (rad) as sigma = +-1 (rays.h), in second order of stationary
  * phase, of Debye's forms, and of the angular functions. axis: rad from the axis of the central ray; theta and axis are ignored,
  * and those of u taken, for an axial ray with u below DEBYE_ORDER_AXIAL, where all terms have settled.
- * Source: Bleistein and Handelsman 1975, sec. 6.1; phase of d^l_1,+-1: (l + 1/2) theta - pi/4 - c/(l + 1/2) up to signs, c = tan(theta/2) + cot(theta)/8 and
- * -cot(theta/2) + cot(theta)/8 (WKB). */
+ * Source: Bleistein and Handelsman 1975, sec. 6.1; phase of d^l_1,+-1: (l + 1/2) theta - pi/4 - c/(l + 1/2) up to signs,
+ * c = tan(theta/2) + cot(theta)/8 and -cot(theta/2) + cot(theta)/8 (WKB). */
 #define DEBYE_ORDER_AXIAL 4e-3
 void debye_order_terms(int p, double complex m, double u, double theta, int sigma, int axial, struct debye_order_terms *out);
 

@@ -1,7 +1,7 @@
 /* goa_plus_caustics - rainbows and glories of goa_plus: two rays that meet, as one uniform form.
  *
- * Near a rainbow two rays of one order make an Airy pair (Chester, Friedman and Ursell 1957), near a glory, an axis reached off-centre, a
- * Bessel pair (Berry 1969). Rays alone serve from a size on that each pair says (`below'); pairs that serve no size above that where all is
+ * Near a rainbow two rays of one order make an Airy pair (Chester, Friedman and Ursell 1957, Proc. Camb. Phil. Soc. 53, 599), near a
+ * glory, an axis reached off-centre, a Bessel pair (Berry 1969, J. Phys. B 2, 381). Rays alone serve from a size on that each pair says (`below'); pairs that serve no size above that where all is
  * waves (goa_plus_windows.h) are left out. */
 #ifndef OPTICS_GOA_PLUS_CAUSTICS_H
 #define OPTICS_GOA_PLUS_CAUSTICS_H
