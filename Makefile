@@ -59,7 +59,7 @@ LOOP_OBJECTS = $(foreach loop,$(LOOPS:lib/%.c=%),$(BUILT:%=obj/$(loop)/%.o))
 MAN = $(wildcard man/*.[1-9])
 
 # As many jobs as there are cores, unless told otherwise; a line a file, or with V=1 its command.
-ifeq ($(filter -j%,$(MAKEFLAGS)),)
+ifeq ($(MAKELEVEL),0)
 MAKEFLAGS += -j$(shell nproc 2>/dev/null || echo 2)
 endif
 say = $(if $(V),,@echo '  $(1)';)
