@@ -2,7 +2,6 @@
 # The charts of make charts, small: their scripts still read what the tools write; and the figures of the paper are all known how to make.
 # shellcheck source=tests/support/lib.sh
 . "$(dirname "$0")/../support/lib.sh"
-plan 6
 export BENCH_QUICK=1 CHART_INDICES=1.33 CHART_STEPS=6
 draw() { sh "$top/tests/bench/run" "$tmp/out" "$1" >"$tmp/log" 2>&1; }
 
@@ -21,3 +20,4 @@ draw chart-failures
 awk -F'\t' 'NR > 1 && NR < 1202 && $3 < 0 && $1 < 2 { below++ } /^#/ { blocks++ } END { exit !(below > 300 && blocks == 3) }' "$tmp/out/failures.tsv"
 ok $? 'failures: extinction of geometrical optics below 0, and two close-ups'
 is '8' "$(make -n -C "$top/data/scenes/paper" OUT="$tmp/paper" 2>&1 | grep -c '^gnuplot')" 'the figures of the paper'
+done_testing

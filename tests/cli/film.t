@@ -2,8 +2,6 @@
 # The film: its layers hold what they say, and parts of an image add up to its bytes.
 # shellcheck source=tests/support/lib.sh
 . "$(dirname "$0")/../support/lib.sh"
-plan 80
-cd "$tmp" || exit 2
 export POCL_CACHE_DIR="$tmp/pocl"
 mkdir "$POCL_CACHE_DIR"
 
@@ -69,7 +67,7 @@ for t in continuous explicit fat-ray grid; do
 	[ $t = continuous ] && grainy= || grainy=-grains
 	for ground in '' ' ground = { height = -1.2; albedo = 0.4; };'; do
 		for m in black white; do
-			scene $m.scene $m$grainy.medium 32 "$lights$ground"
+			scene $m.scene "$m$grainy.medium" 32 "$lights$ground"
 			vrender $m.scene --samples 16 --transport $t -o $m.exr
 		done
 		oiiotool black.exr --ch R,G,B white.exr --ch R=single.R,G=single.G,B=single.B --add \
@@ -93,7 +91,7 @@ ok $? "single scattering: $(mean sun.exr single.G), wanted $want"
 
 for t in continuous explicit fat-ray grid; do
 	[ $t = continuous ] && grainy= || grainy=-grains
-	far beer.scene black$grainy.medium ''
+	far beer.scene "black$grainy.medium" ''
 	vrender beer.scene --samples 64 --transport $t -o beer.exr
 	oiiotool beer.exr --ch R beer.exr --ch R=A --add -d float -o one.exr
 	near "$(layer one.exr R Min)" 1 2e-6 && near "$(most one.exr R)" 1 2e-6
@@ -219,3 +217,4 @@ is 'spectralLayoutVersion: "1.0" emissiveUnits: "W.m^-2.sr^-1"' \
 	'the layout is named'
 oiiotool --info -v many.exr | grep -q 'S0.400,000000nm.*S0.600,000000nm'
 ok $? 'and so are the channels'
+done_testing

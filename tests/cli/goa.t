@@ -2,8 +2,6 @@
 # goa-phase: rows, columns, normalisation, averages, and what it refuses.
 # shellcheck source=tests/support/lib.sh
 . "$(dirname "$0")/../support/lib.sh"
-plan 56
-cd "$tmp" || exit 2
 
 drop='--particle 1.33 --wavelength 550nm'
 # shellcheck disable=SC2086
@@ -163,3 +161,4 @@ refused 'a negative order' 'order' goa-phase --particle 1.33 --size-parameter 10
 refused 'a model that is none' 'model' goa-phase --particle 1.33 --size-parameter 100 --model mie
 mie-coeffs --particle 1.33 --wavelength 550nm --radius 1um -o coeffs.tab
 refused 'coefficients' 'coefficients' goa-phase --particle 1.33 --wavelength 550nm coeffs.tab
+done_testing

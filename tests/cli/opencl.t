@@ -3,8 +3,7 @@
 # shellcheck source=tests/support/lib.sh
 . "$(dirname "$0")/../support/lib.sh"
 # shellcheck source=tests/support/render.sh
-. "$(dirname "$0")/../support/render.sh"
-plan 56
+. "$top/tests/support/render.sh"
 hg 0.8 0.45 0.55 0.65 >hg3.phase
 xsections 90000000 0.97 0.45 0.55 0.65 >three.xsect
 grains three.medium 3000 three.xsect hg3.phase
@@ -130,3 +129,4 @@ is '' "$(ls -d here 2>/dev/null)" 'nothing is put there'
 mkdir home
 nowhere 'a home without a cache' -u XDG_CACHE_HOME HOME="$tmp/home"
 is 1 "$(find home/.cache/motes -name '*.cl' | wc -l)" 'it gets one'
+done_testing

@@ -2,8 +2,6 @@
 # Pipes: failures travel down, early ends are silent, outputs appear when they are whole.
 # shellcheck source=tests/support/lib.sh
 . "$(dirname "$0")/../support/lib.sh"
-plan 30
-cd "$tmp" || exit 2
 
 text='# radius:f64:um\tweight:f64:1\n1\t0.5\n3\t0.5\n'
 # shellcheck disable=SC2059
@@ -60,7 +58,7 @@ if script -qec true /dev/null >/dev/null 2>&1 </dev/null; then
 	script -qec 'tabtxt t.tab' /dev/null >out 2>&1 </dev/null
 	is "0 $(cat t.txt)" "$? $(tr -d '\r' <out)" 'text goes there'
 else
-	for i in 1 2 3 4 5; do echo "ok - terminal $i # skip no terminal to be had"; done
+	for i in 1 2 3 4 5; do skip "terminal $i" 'no terminal to be had'; done
 fi
 
 # An interrupted run leaves nothing, not even where a file cannot be nameless until it is whole (as without /proc).
@@ -86,5 +84,6 @@ if unshare -rm sh -c "$hide" sh true 2>/dev/null; then
 	(without_proc txttab t.txt -o proc.tab) && cmp proc.tab t.tab
 	is "0 proc.tab" "$? $(ls proc*)" 'and a good one writes its file'
 else
-	for i in 1 2 3; do echo "ok - without /proc $i # skip no unshare"; done
+	for i in 1 2 3; do skip "without /proc $i" 'no unshare'; done
 fi
+done_testing

@@ -2,8 +2,6 @@
 # Grains converge to the continuous medium as N^(-1/2), and are it in the mean. Up to 10^6 particles: tests/bench/convergence.sh.
 # shellcheck source=tests/support/lib.sh
 . "$(dirname "$0")/../support/lib.sh"
-plan 4
-cd "$tmp" || exit 2
 # shellcheck source=tests/support/media.sh
 . "$top/tests/support/media.sh"
 grains_setup
@@ -26,3 +24,4 @@ for t in explicit fat-ray; do
 	awk -v t=$t '$1 == "slope" && $2 == t { n++; bad = $4 > 6 || $4 < -6 } END { exit !(n == 1 && !bad) }' laws
 	ok $? "$t: the mean over clouds is the continuum's"
 done
+done_testing

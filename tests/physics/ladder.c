@@ -195,7 +195,6 @@ int main(int argc, char **argv)
 {
 	if (argc == 3 && !strcmp(argv[1], "--honest"))
 		return table(atoi(argv[2]));
-	plan(4 + 3 + 6 + 3 + 3);
 	for (int k = METHOD_RAYLEIGH; k <= METHOD_EVANS_FOURNIER; k++) {
 		struct shares s = honest(k, 0, k == METHOD_GOA ? 40 : 4000, k == METHOD_GOA ? 4 : 20, 1e4);
 		ok(s.n > 20 && s.worse <= s.n / 100 && s.most < 10,
@@ -213,5 +212,5 @@ int main(int argc, char **argv)
 	}
 	small();
 	large();
-	return 0;
+	return done_testing();
 }

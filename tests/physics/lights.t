@@ -3,8 +3,7 @@
 # shellcheck source=tests/support/lib.sh
 . "$(dirname "$0")/../support/lib.sh"
 # shellcheck source=tests/support/render.sh
-. "$(dirname "$0")/../support/render.sh"
-plan 108
+. "$top/tests/support/render.sh"
 
 # box HALF RADIANCE: six quads that face inwards.
 box() {
@@ -243,3 +242,4 @@ scene folder/a.scene hg.medium 8 'lights = ( { type = "environment"; file = "bes
 cp ones.exr folder/beside.exr
 vrender folder/a.scene --samples 1 -o beside.exr
 ok $? "a map lies beside its scene"
+done_testing

@@ -205,7 +205,6 @@ static void grids(void)
 
 int main(void)
 {
-	plan(16);
 	conservation();
 	normalisation();
 	axes();
@@ -213,5 +212,5 @@ int main(void)
 	everywhere();
 	sines();
 	grids();
-	return 0;
+	return done_testing();
 }

@@ -151,9 +151,8 @@ static void published(void)
 
 int main(void)
 {
-	plan(14);
 	reference();
 	amplitudes();
 	published();
-	return 0;
+	return done_testing();
 }

@@ -320,12 +320,11 @@ static void enough(void)
 
 int main(void)
 {
-	plan(12);
 	accuracy();
 	oracle();
 	independence();
 	normalisation();
 	thinning();
 	enough();
-	return 0;
+	return done_testing();
 }

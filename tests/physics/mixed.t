@@ -3,8 +3,6 @@
 # others only taking light away.
 # shellcheck source=tests/support/lib.sh
 . "$(dirname "$0")/../support/lib.sh"
-plan 11
-cd "$tmp" || exit 2
 # shellcheck source=tests/support/media.sh
 . "$top/tests/support/media.sh"
 sizes 3 >three.psd
@@ -78,3 +76,4 @@ for t in grid explicit; do
 	paste all-continuous.blocks all-$t.blocks | awk '{ a += $1; b += $3 } END { print b / a; exit !(b < 1.03 * a && b > 0.97 * a) }' >told
 	ok $? "$t: once scattered light in units of continuous $(cat told)"
 done
+done_testing

@@ -3,8 +3,7 @@
 # shellcheck source=tests/support/lib.sh
 . "$(dirname "$0")/../support/lib.sh"
 # shellcheck source=tests/support/render.sh
-. "$(dirname "$0")/../support/render.sh"
-plan 52
+. "$top/tests/support/render.sh"
 hg 0 0.55 >iso.phase
 hg 0.8 0.55 >hg.phase
 hg 0.8 0.45 0.55 0.65 >hg3.phase
@@ -126,3 +125,4 @@ scene hot.scene white.medium 8 'lights = ( { type = "environment"; radiance = 1e
 refused 'light beyond what the film can hold' 'too strong' vrender hot.scene --samples 64 -o typo.exr
 refused 'a device that is not there' 'none of the' vrender white.scene --backend opencl --device 60 -o typo.exr
 is '' "$(ls typo.exr* 2>/dev/null)" 'no image appears under its name'
+done_testing

@@ -3,8 +3,6 @@
 # times as exactly: tests/bench/slab.sh.
 # shellcheck source=tests/support/lib.sh
 . "$(dirname "$0")/../support/lib.sh"
-plan 4
-cd "$tmp" || exit 2
 # shellcheck source=tests/support/media.sh
 . "$top/tests/support/media.sh"
 for g in 0 0.5 0.75 0.875; do hg $g >hg$g.phase; done
@@ -108,3 +106,4 @@ zs 5 4.1 <thin >told
 ok $? "thin slabs: $(cat told)"
 awk -F'\t' '$4 > 1.2e-3 { exit 1 }' slabs halves
 ok $? 'standard errors as asked for'
+done_testing

@@ -1,6 +1,6 @@
 /* Tables of reference values beside the tests. */
-#ifndef TESTS_CSV_H
-#define TESTS_CSV_H
+#ifndef SUPPORT_CSV_H
+#define SUPPORT_CSV_H
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,7 @@
 # shellcheck shell=sh
-# TAP for plain sh. A test sources this, says "plan N", and reports with ok and is.
-# The programs under test are first on the PATH; $tmp is a folder of the test's own.
+# TAP for plain sh. A test sources this, reports with ok, is and refused, and ends with done_testing: one that dies before has no plan,
+# and prove fails it. So it does where a test was told in a subshell, which does not count.
+# The programs under test are first on the PATH; the test is in $tmp, a folder of its own.
 set -u
 : "${MOTES_BUILD:=build}"
 top=$(cd "$(dirname "$0")/../.." && pwd)
@@ -15,15 +16,30 @@ export XDG_CACHE_HOME=/dev/null    # the user's caches are not a test's
 # For the sanitizer: its own exit status 1 would read as "compared and different", and a tool may leave its memory to its end.
 export ASAN_OPTIONS="${ASAN_OPTIONS:-exitcode=99:detect_leaks=0}"
 
-plan() { echo "1..$1"; }
+cd "$tmp" || exit 2
 
+tests_run=0 tests_failed=0
 # ok STATUS NAME: passes where STATUS is 0.
-ok() { if [ "$1" -eq 0 ]; then echo "ok - $2"; else echo "not ok - $2"; fi; }
+ok() {
+	tests_run=$((tests_run + 1))
+	if [ "$1" -eq 0 ]; then echo "ok $tests_run - $2"; else
+		tests_failed=$((tests_failed + 1))
+		echo "not ok $tests_run - $2"
+	fi
+}
+# skip NAME WHY
+skip() { ok 0 "$1 # skip $2"; }
+# done_testing: the plan, counted, and the exit status.
+done_testing() {
+	echo "1..$tests_run"
+	[ $tests_run -gt 0 ] && [ $tests_failed -eq 0 ]
+	exit
+}
 
 # is WANTED GOT NAME: passes where the two texts are equal.
 is() {
-	if [ "$1" = "$2" ]; then echo "ok - $3"; else
-		echo "not ok - $3"
+	if [ "$1" = "$2" ]; then ok 0 "$3"; else
+		ok 1 "$3"
 		printf '%s\n' "$1" | sed 's/^/# wanted: /'
 		printf '%s\n' "$2" | sed 's/^/# got:    /'
 	fi
@@ -38,9 +54,9 @@ refused() {
 	status=$?
 	lines=$(wc -l <"$tmp/.err")
 	if [ $status -eq 2 ] && [ "$lines" -eq 1 ] && grep -qE -e "$pattern" "$tmp/.err" && ! [ -s "$tmp/.out" ]; then
-		echo "ok - $name"
+		ok 0 "$name"
 	else
-		echo "not ok - $name"
+		ok 1 "$name"
 		echo "# exit $status, $(wc -c <"$tmp/.out") bytes on stdout, stderr wanted to match: $pattern"
 		sed 's/^/# /' "$tmp/.err"
 	fi

@@ -1,6 +1,6 @@
 /* Integrals over angles, for the tests. */
-#ifndef TESTS_QUADRATURE_H
-#define TESTS_QUADRATURE_H
+#ifndef SUPPORT_QUADRATURE_H
+#define SUPPORT_QUADRATURE_H
 
 #include <math.h>
 

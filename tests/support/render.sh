@@ -1,7 +1,6 @@
 # shellcheck shell=sh
-# What the tests of the renderer share: media, scenes, and statistics of pictures. Sourced after lib.sh; enters $tmp.
+# What the tests of the renderer share: media, scenes, and statistics of pictures. Sourced after lib.sh.
 # shellcheck disable=SC2154
-cd "$tmp" || exit 2
 export POCL_CACHE_DIR="$tmp/pocl"
 mkdir "$POCL_CACHE_DIR"
 

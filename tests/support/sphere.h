@@ -1,6 +1,6 @@
 /* A small Lorenz-Mie and Debye code, kept apart from lib/optics so that tests have something else to compare with. */
-#ifndef TESTS_SPHERE_H
-#define TESTS_SPHERE_H
+#ifndef SUPPORT_SPHERE_H
+#define SUPPORT_SPHERE_H
 
 #include <complex.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* Coefficients and efficiencies of a sphere, for the tests of Lorenz-Mie theory. */
-#ifndef TESTS_WAVES_H
-#define TESTS_WAVES_H
+#ifndef SUPPORT_WAVES_H
+#define SUPPORT_WAVES_H
 
 #include "optics/mie/mie.h"
 

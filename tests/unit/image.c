@@ -67,7 +67,6 @@ int main(void)
 	char folder[] = "/tmp/image-XXXXXX", a[64], b[64];
 	struct exr one, other, back;
 	size_t na, nb;
-	plan(5);
 	if (!mkdtemp(folder))
 		die(folder, "cannot create:");
 	snprintf(a, sizeof a, "%s/a.exr", folder);
@@ -102,5 +101,5 @@ int main(void)
 	exr_free(&one);
 	exr_free(&other);
 	exr_free(&back);
-	return 0;
+	return done_testing();
 }

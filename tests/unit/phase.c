@@ -35,7 +35,6 @@ int main(void)
 	static float theta_f[NODES], p_f[NODES];
 	static uint32_t cdf[NODES];
 	static long hit[NODES];
-	plan(9);
 	table(theta, p);
 
 	double line[2] = { 1 / (4 * M_PI), 1 / (4 * M_PI) }, sum = 0, fine = 0;
@@ -130,5 +129,5 @@ int main(void)
 	ok(worst < 1e-6, "sine and cosine are of one angle: %.2g", worst);
 	ok(worst_value < 1, "p is that at the angle drawn: within %.2g of what rounding may do", worst_value);
 	angles_free(&angles);
-	return 0;
+	return done_testing();
 }
