@@ -175,7 +175,7 @@ bench-mie: programs
 	PATH="$(CURDIR)/$(B)/bin:$$PATH" CC="$(CC)" MOTES_ARCHIVE="$(CURDIR)/$(B)/libmotes.a" MOTES_PEERS="$(CURDIR)/$(B)/mie-venv" \
 	sh tests/bench/run $(B)/bench $(MIE_BENCHES)
 # Cross sections by the cheapest method within a tolerance.
-bench-xsect: programs $(B)/tests/physics/ladder
+bench-xsect: programs $(B)/tests/physics/method_selection
 	PATH="$(CURDIR)/$(B)/bin:$$PATH" MOTES_TESTS="$(CURDIR)/$(B)/tests" sh tests/bench/run $(B)/bench $(XSECT_BENCHES)
 # What each method is good for: error against time, the cheapest method, and where each fails. Beside each chart is a text of how it is made.
 charts: programs

@@ -51,7 +51,7 @@ static struct efficiencies by_goa(const struct sphere *s, const void *prepared, 
 	return q;
 }
 
-/* Costs in terms of Lorenz-Mie series, of which a sphere has about x: time over that of mie_many, as `ladder --costs' of the tests measures
+/* Costs in terms of Lorenz-Mie series, of which a sphere has about x: time over that of mie_many, as `method_selection --costs' of the tests measures
  * it. AVX-512, m = 1.33, 1.5, 1.33+0.001i, 1.5+0.1i (and 0.75), x = 100 to 1e4: the fit 42 to 83; CAM 300 to 430 (1200), and for each
  * octave that the sizes of an index spread over 1.0e5 to 1.3e5 (2.9e5). The table's are round, with margin: a sphere that Lorenz-Mie theory
  * serves is exact. Rayleigh's 6 to 14 are less than any series. */
