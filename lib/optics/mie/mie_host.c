@@ -106,8 +106,8 @@ int mie_host_coefficients(double complex x, double complex m, int n, double comp
 	return 0;
 }
 
-/* e^(-beta) / gamma */
-static double share(double complex x)
+/* e^(-beta) / gamma, the factor of eq 29. */
+static double per_incident(double complex x)
 {
 	double beta = 2 * cimag(x);
 	return exp(-2 * beta) / mie_host_gamma(beta);
@@ -116,7 +116,7 @@ static double share(double complex x)
 struct efficiencies mie_host_efficiencies(double complex x, int n, const double complex *a, const double complex *b, double *error)
 {
 	struct mie_sums q;
-	double ext_im = 0, bulk_re = 0, bulk_im = 0, x2 = norm2(x), of_x = share(x);
+	double ext_im = 0, bulk_re = 0, bulk_im = 0, x2 = norm2(x), of_x = per_incident(x);
 	mie_sums_of(0, n, a, b, &q);
 	for (int l = 1; l <= n; l++) {
 		double w = 2.0 * l + 1;
@@ -142,5 +142,5 @@ struct efficiencies mie_host_efficiencies(double complex x, int n, const double 
 
 double mie_host_norm(double complex x, double sca)
 {
-	return M_PI * norm2(x) * sca / share(x);
+	return M_PI * norm2(x) * sca / per_incident(x);
 }
