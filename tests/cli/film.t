@@ -2,8 +2,6 @@
 # The film: its layers hold what they say, and parts of an image add up to its bytes.
 # shellcheck source=tests/support/lib.sh
 . "$(dirname "$0")/../support/lib.sh"
-export POCL_CACHE_DIR="$tmp/pocl"
-mkdir "$POCL_CACHE_DIR"
 
 # ---- media: isotropic particles in a cube of side 2 m
 
