@@ -4,7 +4,7 @@
 
 #define LANES 1
 #define UNROLL 1
-#include "optics/mie/mie_solve.h"
+#include "optics/mie/mie_coefficients.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -40,7 +40,7 @@ static double complex inverse(double complex z)
 /* i z */
 static double complex turned(double complex z) { return CMPLX(-cimag(z), creal(z)); }
 
-/* E_l(x) (of mie_solve.h), and E_l(y), or where m is near 1 their difference d_l, for 0 <= l <= n. */
+/* E_l(x) (of mie_coefficients.h), and E_l(y), or where m is near 1 their difference d_l, for 0 <= l <= n. */
 static void ratios(double complex x, double complex m, int n, int near, double complex rise, double complex *ex, double complex *e)
 {
 	double complex y = m * x, inv_x = inverse(x), inv_y = inverse(y), at_x = 0, at_y = 0, d = 0;
