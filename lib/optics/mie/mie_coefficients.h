@@ -1,4 +1,5 @@
-/* mie_coefficients - a_l and b_l of WIDTH spheres, or orders, side by side, from what goes downward and upward. Included with LANES and UNROLL set.
+/* mie_coefficients - a_l and b_l of spheres or of orders side by side, from what goes downward and upward. Included with LANES and UNROLL
+ * set.
  *
  * Symbols. psi_l, chi_l, xi_l = psi_l - i chi_l Riccati-Bessel functions with psi_0 = sin, chi_0 = cos;
  * y = m x; E_l(z) = -psi_{l+1}(z)/psi_l(z), so that D_l(z) = psi_l'(z)/psi_l(z) = E_l(z) + (l+1)/z.
