@@ -69,6 +69,7 @@ static struct cube *make(size_t n, const double *c, uint32 seed)
 		q->scene.largest = fmaxf(q->scene.largest, q->disc[i]);
 	}
 	m->half[0] = m->half[1] = m->half[2] = 0.5;
+	m->kind = MEDIUM_PARTICLES;
 	m->n_particles = n;
 	m->particle = xalloc(n, 4 * sizeof(float));
 	for (size_t i = 0; i < n; i++) {

@@ -46,6 +46,7 @@ int main(int argc, char **argv)
 		die("--concentration", "needs --psd");
 	if (!psd && density)
 		die("--density", "needs --psd; particles have their own");
+	m.kind = psd ? MEDIUM_DENSITY : MEDIUM_PARTICLES;
 	m.round = !isnan(sphere);
 	for (int a = 0; a < 3 && bounded; a++)
 		m.half[a] = m.round ? sphere : box[a] / 2;
@@ -56,7 +57,7 @@ int main(int argc, char **argv)
 	char *matter = psd ? fill_psd(psd, concentration, &m) : fill_particles(args.n ? args.operand[0] : NULL, bounded, &m);
 	char *phases = optics_phase(phase, &m);
 	m.history = tab_join(history, phases, matter, args.history, NULL);
-	if (m.n_particles) {
+	if (m.kind == MEDIUM_PARTICLES) {
 		grid_build(&m);
 		voxels_count(&m, (int)voxels);
 	}

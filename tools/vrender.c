@@ -119,8 +119,8 @@ int main(int argc, char **argv)
 	medium_open(file.medium, &medium);
 	int asked = transport >= 0;
 	if (!asked)
-		transport = medium.n_particles ? TRANSPORT_EXPLICIT : TRANSPORT_CONTINUOUS;
-	else if ((transport == TRANSPORT_EXPLICIT || transport == TRANSPORT_FAT_RAY) && !medium.n_particles)
+		transport = medium.kind == MEDIUM_PARTICLES ? TRANSPORT_EXPLICIT : TRANSPORT_CONTINUOUS;
+	else if ((transport == TRANSPORT_EXPLICIT || transport == TRANSPORT_FAT_RAY) && medium.kind != MEDIUM_PARTICLES)
 		die(file.medium, "has no particles, which explicit and fat-ray need; bake it from particles, or render it as grid or continuous");
 	if (attenuation == ATTENUATION_EXPONENTIAL && transport != TRANSPORT_FAT_RAY)
 		die("--attenuation", "exponential goes with --transport fat-ray");
@@ -131,7 +131,7 @@ int main(int argc, char **argv)
 	if (verbose)
 		warn(file.medium, "%s, %s: %zu particles, %d classes, %d wavelengths, mean optical depth %.4g along the shortest axis",
 		     (const char *[]){ "explicit", "fat-ray", "grid", "continuous" }[transport],
-		     asked ? "as asked for" : medium.n_particles ? "the default for particles" : "the default without particles",
+		     asked ? "as asked for" : medium.kind == MEDIUM_PARTICLES ? "the default for particles" : "the default without particles",
 		     medium.n_particles, medium.n_classes, medium.n_waves, medium_depth(&medium));
 
 	struct out out = out_open(output, 1);    /* before the work, not after */

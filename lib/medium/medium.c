@@ -283,6 +283,7 @@ static void counts_in(const char *path, struct medium *m, const uint64_t *n)
 	m->n_classes = (int)n[1];
 	m->n_nodes = (size_t)n[6];
 	m->n_particles = (size_t)n[9] / 4;
+	m->kind = m->n_particles ? MEDIUM_PARTICLES : MEDIUM_DENSITY;
 	m->n_first = (size_t)n[10];
 	m->n_voxel_count = (size_t)n[10 + 1];
 	m->n_density = (size_t)n[12];
@@ -320,7 +321,7 @@ static void check_optics(const char *path, const struct medium *m)
 
 static void check_particles(const char *path, const struct medium *m)
 {
-	if (!m->n_particles) {
+	if (m->kind != MEDIUM_PARTICLES) {
 		if (m->n_first || m->n_voxel_count)
 			damaged(path, "a grid without particles");
 		return;
@@ -345,7 +346,7 @@ static void check_particles(const char *path, const struct medium *m)
 
 static void check_voxels(const char *path, const struct medium *m)
 {
-	if (m->n_particles) {
+	if (m->kind == MEDIUM_PARTICLES) {
 		if (m->n_density || !(m->voxel > 0) || voxels_size(m->voxels) * (size_t)m->n_classes != m->n_voxel_count)
 			damaged(path, "voxels do not agree with their number");
 		for (int a = 0; a < 3; a++)

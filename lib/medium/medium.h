@@ -8,7 +8,12 @@
 #define MEDIUM_CLASSES 4096
 #define MEDIUM_WAVES 1024
 
+/* What the matter of a medium is: single particles, which cubes also count; or a field of relative density, of which the classes
+ * have their expected numbers. */
+enum medium_kind { MEDIUM_PARTICLES, MEDIUM_DENSITY };
+
 struct medium {
+	enum medium_kind kind;
 	char *history;                  /* cmd lines as in tab(5) */
 	int round;                      /* a sphere of radius half[0], else a box; centred on the origin */
 	double half[3];                 /* m */
@@ -22,7 +27,7 @@ struct medium {
 	float *theta;                   /* [node] rad */
 	float *p;                       /* [node][wave] sr^-1, normalised */
 	uint32_t *cdf;                  /* [node][wave], see phase_cdf */
-	size_t n_particles;             /* 0: a medium without particles; the rest is then empty */
+	size_t n_particles;             /* of MEDIUM_PARTICLES, as is all to voxel_count */
 	float *particle;                /* [particle][4] x y z m, the bits of an int32 class; in the order of the cells */
 	int32_t cells[3];               /* the grid over the centres */
 	float low[3], cell[3];          /* m */
@@ -33,7 +38,7 @@ struct medium {
 	size_t n_voxel_count;
 	uint32_t *voxel_count;          /* [level][voxel][class], finest level first; see particle_counts.h */
 	size_t n_density;
-	float *density;                 /* [z][y][x] relative density of a medium without particles, see density.h */
+	float *density;                 /* [z][y][x] of MEDIUM_DENSITY: relative density, see density.h */
 	double matter;                  /* m^3, integral of the density over the medium */
 	uint32_t crc;                   /* of an open file: what a history says of its content */
 	void *map;

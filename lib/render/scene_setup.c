@@ -157,7 +157,7 @@ static void optics(struct job *j, const struct medium *m, int suns)
 			sca += m->count[k] * c_sca;
 		}
 		/* of the whole medium; on a density grid, where the density is 1 */
-		double volume = j->scene.transport == TRANSPORT_GRID && m->n_density ? m->matter : medium_volume(m);
+		double volume = j->scene.transport == TRANSPORT_GRID && m->kind == MEDIUM_DENSITY ? m->matter : medium_volume(m);
 		extinction[w] = volume > 0 ? (float)(ext * 1e-12 / volume) : 0;
 		albedo[classes * waves + w] = ext > 0 ? (float)fmin(1, sca / ext) : 0;
 	}
@@ -202,7 +202,7 @@ static void optics(struct job *j, const struct medium *m, int suns)
 static void voxels(struct job *j, const struct medium *m)
 {
 	struct scene *s = &j->scene;
-	s->counted = m->n_particles > 0;
+	s->counted = m->kind == MEDIUM_PARTICLES;
 	for (int a = 0; a < 3; a++) {
 		/* cells lie between the nodes of a density, and half of one before the first; before all, an empty brick */
 		double side = s->counted ? m->voxel : 2 * m->half[a] / m->voxels[a];
@@ -252,7 +252,7 @@ void job_make(struct job *j, const struct scenefile *file, const struct medium *
 	s->branch_share = 1 / (float)branches;
 	s->n_classes = medium->n_classes;
 	/* particles scatter by their class, everything else as the mixture */
-	s->only_class = s->transport == TRANSPORT_CONTINUOUS || !medium->n_particles ? medium->n_classes : medium->n_classes == 1 ? 0 : -1;
+	s->only_class = s->transport == TRANSPORT_CONTINUOUS || medium->kind == MEDIUM_DENSITY ? medium->n_classes : medium->n_classes == 1 ? 0 : -1;
 	camera(s, file);
 	optics(j, medium, file->n_suns > 0);
 	voxels(j, medium);
