@@ -78,7 +78,7 @@ static struct cube *make(size_t n, const double *c, uint32 seed)
 			m->particle[4 * i + (size_t)a] = draw(&r, a) - 0.5f;
 		memcpy(&m->particle[4 * i + 3], &(int32_t){ (int32_t)(draw_bits(&r, 3) & 1) }, 4);
 	}
-	grid_build(m);
+	particle_grid_build(m);
 	q->scene.n_waves = q->scene.carried = WAVES;
 	q->scene.n_groups = 1;
 	q->scene.n_classes = CLASSES;

@@ -23,7 +23,7 @@ int main(int argc, char **argv)
 		{ "--box", OPT_BOX, box, 1e-9, 1e6, "X,Y,Z", "the medium fills a box", 0 },
 		{ "--sphere", OPT_M, &sphere, 1e-9, 1e6, "R", "the medium fills a sphere", 0 },
 		{ "--density", OPT_FILE, &density, 0, 0, "GRID.npy", "relative density in the box, [z][y][x], with --psd", 0 },
-		{ "--voxels", OPT_INT, &voxels, 1, VOXELS_SIDE, "N", "voxels along the longest side", 0 },
+		{ "--voxels", OPT_INT, &voxels, 1, MEDIUM_VOXELS_SIDE, "N", "voxels along the longest side", 0 },
 		{ "-o", OPT_FILE, &output, 0, 0, "FILE", "the medium file", 1 },
 		OPT_END
 	};
@@ -52,14 +52,14 @@ int main(int argc, char **argv)
 		m.half[a] = m.round ? sphere : box[a] / 2;
 
 	if (psd)
-		fill_density(density, (int)voxels, &m);
-	char *history = optics_cross_sections(xsect, &m);
-	char *matter = psd ? fill_psd(psd, concentration, &m) : fill_particles(args.n ? args.operand[0] : NULL, bounded, &m);
-	char *phases = optics_phase(phase, &m);
+		bake_density(density, (int)voxels, &m);
+	char *history = classes_cross_sections(xsect, &m);
+	char *matter = psd ? bake_psd(psd, concentration, &m) : bake_particles(args.n ? args.operand[0] : NULL, bounded, &m);
+	char *phases = classes_phase_functions(phase, &m);
 	m.history = tab_join(history, phases, matter, args.history, NULL);
 	if (m.kind == MEDIUM_PARTICLES) {
-		grid_build(&m);
-		voxels_count(&m, (int)voxels);
+		particle_grid_build(&m);
+		particle_counts_build(&m, (int)voxels);
 	}
 	medium_write(output, &m);
 	return 0;

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-void fill_density(const char *path, int longest, struct medium *m)
+void bake_density(const char *path, int longest, struct medium *m)
 {
 	/* along an axis of a voxel, for averages; a box keeps its own voxels, whose mean is exact */
 	const int parts = longest || m->round ? 4 : 1;
@@ -22,8 +22,8 @@ void fill_density(const char *path, int longest, struct medium *m)
 	for (int a = 0; a < 3; a++) {
 		if (longest)
 			n[a] = (size_t)fmax(1, round(2 * m->half[a] / side));
-		if (n[a] > VOXELS_SIDE)
-			die(path ? path : "--voxels", "more than %d voxels along a side", VOXELS_SIDE);
+		if (n[a] > MEDIUM_VOXELS_SIDE)
+			die(path ? path : "--voxels", "more than %d voxels along a side", MEDIUM_VOXELS_SIDE);
 		m->voxels[a] = (int32_t)n[a];
 	}
 	m->n_density = n[0] * n[1] * n[2];
@@ -54,14 +54,14 @@ void fill_density(const char *path, int longest, struct medium *m)
 		free(g.v);
 }
 
-char *fill_psd(const char *path, double concentration, struct medium *m)
+char *bake_psd(const char *path, double concentration, struct medium *m)
 {
 	struct tab *t = tab_open(path);
 	int radius = tab_need(t, "radius", "um"), weight = tab_need(t, "weight", "1");
 	double row[TAB_COLS], sum = 0;
 	while (tab_next(t, row)) {
 		unsigned long long number = (unsigned long long)tab_row(t);
-		int class = row[radius] > 0 ? optics_class(m, row[radius]) : -1;
+		int class = row[radius] > 0 ? classes_find(m, row[radius]) : -1;
 		if (class < 0)
 			die(tab_path(t), "row %llu: radius %g um fits none of the %d classes of --xsect", number, row[radius], m->n_classes);
 		if (!(row[weight] >= 0) || !isfinite(row[weight]))
@@ -85,7 +85,7 @@ static int outside(const struct medium *m, const double *q)
 	return fabs(q[0]) > m->half[0] * (1 + 1e-6) || fabs(q[1]) > m->half[1] * (1 + 1e-6) || fabs(q[2]) > m->half[2] * (1 + 1e-6);
 }
 
-char *fill_particles(const char *path, int bounded, struct medium *m)
+char *bake_particles(const char *path, int bounded, struct medium *m)
 {
 	struct tab *t = tab_open(path);
 	int x = tab_need(t, "x", "m"), y = tab_need(t, "y", "m"), z = tab_need(t, "z", "m"), radius = tab_need(t, "radius", "um");
@@ -94,7 +94,7 @@ char *fill_particles(const char *path, int bounded, struct medium *m)
 	while (tab_next(t, row)) {
 		unsigned long long number = (unsigned long long)tab_row(t);
 		double q[3] = { row[x], row[y], row[z] };
-		int32_t class = row[radius] > 0 ? optics_class(m, row[radius]) : -1;
+		int32_t class = row[radius] > 0 ? classes_find(m, row[radius]) : -1;
 		if (class < 0)
 			die(tab_path(t), "row %llu: radius %g um fits none of the %d classes of --xsect", number, row[radius], m->n_classes);
 		for (int a = 0; a < 3; a++) {

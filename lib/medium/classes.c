@@ -45,7 +45,7 @@ static void positive(const struct tab *t, const char *name, double v)
 		die(tab_path(t), "row %llu: %s %g is not positive", (unsigned long long)tab_row(t), name, v);
 }
 
-char *optics_cross_sections(const char *path, struct medium *m)
+char *classes_cross_sections(const char *path, struct medium *m)
 {
 	struct tab *t = tab_open(path);
 	int wavelength = tab_need(t, "wavelength", "um"), radius = tab_need(t, "radius", "um");
@@ -90,7 +90,7 @@ char *optics_cross_sections(const char *path, struct medium *m)
 	return history;
 }
 
-int optics_class(const struct medium *m, double radius)
+int classes_find(const struct medium *m, double radius)
 {
 	int best = 0;
 	double gap[2] = { 1e-6, 1e-6 }, d;
@@ -266,7 +266,7 @@ static void append_mixture(struct medium *m, const struct curve *curves)
 	free(grid.p);
 }
 
-char *optics_phase(const char *path, struct medium *m)
+char *classes_phase_functions(const char *path, struct medium *m)
 {
 	struct tab *t = tab_open(path);
 	int shared;

@@ -203,7 +203,7 @@ static void grid(const char *path, struct medium *m, char *line)
 		m->cells[a] = (int32_t)strtol(f[1 + a], NULL, 10);
 		m->low[a] = strtof(f[4 + a], NULL);
 		m->cell[a] = strtof(f[7 + a], NULL);
-		if (m->cells[a] < 0 || m->cells[a] > GRID_SIDE || !isfinite(m->low[a]) || !isfinite(m->cell[a]))
+		if (m->cells[a] < 0 || m->cells[a] > PARTICLE_GRID_SIDE || !isfinite(m->low[a]) || !isfinite(m->cell[a]))
 			damaged(path, "bad grid line");
 	}
 }
@@ -215,7 +215,7 @@ static void voxels(const char *path, struct medium *m, char *line)
 		damaged(path, "bad voxels line");
 	for (int a = 0; a < 3; a++) {
 		m->voxels[a] = (int32_t)strtol(f[1 + a], NULL, 10);
-		if (m->voxels[a] < 1 || m->voxels[a] > VOXELS_SIDE)
+		if (m->voxels[a] < 1 || m->voxels[a] > MEDIUM_VOXELS_SIDE)
 			damaged(path, "bad voxels line");
 	}
 	m->voxel = strtod(f[4], NULL);
@@ -347,7 +347,7 @@ static void check_particles(const char *path, const struct medium *m)
 static void check_voxels(const char *path, const struct medium *m)
 {
 	if (m->kind == MEDIUM_PARTICLES) {
-		if (m->n_density || !(m->voxel > 0) || voxels_size(m->voxels) * (size_t)m->n_classes != m->n_voxel_count)
+		if (m->n_density || !(m->voxel > 0) || particle_counts_size(m->voxels) * (size_t)m->n_classes != m->n_voxel_count)
 			damaged(path, "voxels do not agree with their number");
 		for (int a = 0; a < 3; a++)
 			if (!(m->voxel * (m->voxels[a] - 1) < 2 * m->half[a]))
