@@ -45,11 +45,11 @@ static void airy(void)
 	ok(off < 1e-3, "and keeps to Riccati's equation within %.1e", off);
 }
 
-static void spectra(void)
+static void exponentials(void)
 {
 	static const int count[] = { 1, 2, 37, 345, 680 };
 	double worst = 0;
-	struct spectrum s = { 0 };
+	struct nufft s = { 0 };
 	for (unsigned i = 0; i < sizeof count / sizeof *count; i++) {
 		int n = count[i];
 		double *c = malloc(2 * (size_t)n * sizeof *c);
@@ -58,7 +58,7 @@ static void spectra(void)
 			state = state * 6364136223846793005u + 1442695040888963407u;
 			c[k] = (double)(state >> 11) * 0x1p-53 - 0.5;
 		}
-		if (spectrum_set(&s, n, (const double *[4]){ NULL, c, NULL, NULL }))
+		if (nufft_set(&s, n, (const double *[4]){ NULL, c, NULL, NULL }))
 			worst = INFINITY;
 		for (double phi = 0.01; phi < 2 * M_PI; phi += 0.37) {
 			double complex want = 0, got = 0;
@@ -68,14 +68,14 @@ static void spectra(void)
 			for (int t = -3; t <= 4; t++) {
 				double z = ((int)at + t - at) / 4, *row = s.row + 8 * ((int)at + t);
 				if (fabs(z) < 1)
-					got += exp(SPECTRUM_SHAPE * (sqrt(1 - z * z) - 1)) * (row[1] + I * row[5]);
+					got += exp(NUFFT_SHAPE * (sqrt(1 - z * z) - 1)) * (row[1] + I * row[5]);
 			}
 			worst = fmax(worst, cabs(got - want) / sqrt(n));
 		}
 		free(c);
 	}
-	spectrum_free(&s);
-	ok(worst < 1e-5, "sums of exponentials from their spectrum, within %.1e", worst);
+	nufft_free(&s);
+	ok(worst < 1e-5, "sums of exponentials by a nonuniform Fourier transform, within %.1e", worst);
 }
 
 /* Rays of one order with their second-order terms against the Debye series, where nothing else is needed; errors rms over rms. */
@@ -147,7 +147,7 @@ int main(void)
 	enum { PARTS = sizeof part / sizeof *part };
 	plan(8 + PARTS);
 	airy();
-	spectra();
+	exponentials();
 	windows();
 	for (int k = 0; k < PARTS; k++)
 		second_order(part[k].m, part[k].p, part[k].lo, part[k].hi, part[k].wanted);

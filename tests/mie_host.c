@@ -149,7 +149,7 @@ static void phase_function(void)
 		double complex *s = malloc(2 * (size_t)n * sizeof *s);
 		if (!theta || !s)
 			exit(2);
-		angles_equal(n, theta);
+		angle_grid_equal(n, theta);
 		mie_amplitudes(w.n, w.a, w.b, n, theta, s, s + n);
 		struct efficiencies q = mie_host_efficiencies(at[k].x, w.n, w.a, w.b, NULL);
 		for (int i = 0; i < n; i++) {

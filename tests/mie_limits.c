@@ -63,7 +63,7 @@ static void normalisation(void)
 		int n = 4 * w.n + 2;
 		double *theta = room((size_t)n, sizeof *theta), *p = room((size_t)n, sizeof *p);
 		double complex *s = room(2 * (size_t)n, sizeof *s);
-		angles_equal(n, theta);
+		angle_grid_equal(n, theta);
 		mie_amplitudes(w.n, w.a, w.b, n, theta, s, s + n);
 		double q = mie_efficiencies(at[k].x, cimag(at[k].m) == 0, w.n, w.a, w.b, NULL).sca;
 		for (int i = 0; i < n; i++)
@@ -82,7 +82,7 @@ static void axes(void)
 {
 	double worst = 0, alone = 0, theta[101];
 	double complex s1[101], s2[101], t1, t2;
-	angles_equal(101, theta);
+	angle_grid_equal(101, theta);
 	for (double x = 1e-5; x < 1e4; x *= 9.1) {
 		struct waves w = waves(x, 1.4 + 0.02 * I);
 		struct efficiencies q = mie_efficiencies(x, 0, w.n, w.a, w.b, NULL);
@@ -187,18 +187,18 @@ static void grids(void)
 {
 	int bad = 0;
 	for (double x = 1e-8; x < 2e7; x *= 5.3) {
-		int n = angles_count(x);
+		int n = angle_grid_count(x);
 		double *theta = room((size_t)n, sizeof *theta);
-		angles_grid(x, theta);
+		angle_grid(x, theta);
 		bad += theta[0] != 0 || theta[n - 1] != 180 || theta[n / 2] != 90 || n > 10000;
 		for (int i = 1; i < n; i++)
 			bad += !(theta[i] > theta[i - 1]) || (i < n / 2 && 180 - theta[i] != theta[n - 1 - i]);
 		free(theta);
 	}
 	double equal[1801];
-	angles_equal(1801, equal);
+	angle_grid_equal(1801, equal);
 	bad += equal[1] != 0.1 || equal[900] != 90 || equal[1800] != 180;
-	angles_equal(2, equal);
+	angle_grid_equal(2, equal);
 	bad += equal[0] != 0 || equal[1] != 180;
 	ok(!bad, "angular grids ascend from 0 to 180, symmetric");
 }

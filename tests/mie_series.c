@@ -69,13 +69,13 @@ static void accuracy(void)
 	double forward = 0, local = 0, sum = 0;
 	for (size_t k = 0; k < sizeof at / sizeof *at; k++) {
 		struct waves w = waves(at[k].x, at[k].m);
-		struct series *s = mie_series(w.n, w.a, w.b);
+		struct legendre_series *s = mie_fast_amplitudes_new(w.n, w.a, w.b);
 		double theta[64];
 		double complex s1[64], s2[64], zero[2], want[2], d1[64], d2[64];
 		int n = angles_to_try(at[k].x, theta);
 		if (!s)
 			exit(2);
-		mie_series_at(s, n, theta, s1, s2);
+		mie_fast_amplitudes_at(s, n, theta, s1, s2);
 		reference(&w, 0, zero);
 		if (at[k].x < 5000 && mie_amplitudes(w.n, w.a, w.b, n, theta, d1, d2))
 			exit(2);
@@ -86,7 +86,7 @@ static void accuracy(void)
 			reference(&w, theta[i], want);
 			for (int j = 0; j < 41; j++)    /* over +-10/x rad */
 				near[j] = fmin(180, fmax(0, theta[i] + (j - 20) * 0.5 / at[k].x * (180 / M_PI)));
-			mie_series_at(s, 41, near, n1, n2);
+			mie_fast_amplitudes_at(s, 41, near, n1, n2);
 			for (int j = 0; j < 41; j++)
 				rms += (norm2(n1[j]) + norm2(n2[j])) / (2 * 41);
 			double e = fmax(cabs(s1[i] - want[0]), cabs(s2[i] - want[1]));
@@ -98,7 +98,7 @@ static void accuracy(void)
 		printf("# x = %g, m = %g+%gi: %.1e of S(0), %.1e of what is near\n", at[k].x, creal(at[k].m), cimag(at[k].m), one, own);
 		forward = fmax(forward, one);
 		local = fmax(local, own);
-		series_free(s);
+		legendre_series_free(s);
 		drop(&w);
 	}
 	ok(forward <= 1e-13, "error of S1, S2 at every angle within 1e-13 S(0) (%.2g)", forward);
@@ -112,7 +112,7 @@ static void oracle(void)
 	FILE *f = fopen("tests/data/mie_amplitudes.csv", "r");
 	double v[8], x = 0, worst = 0;
 	double complex m = 0, zero[2];
-	struct series *s = NULL;
+	struct legendre_series *s = NULL;
 	int rows = 0;
 	if (!f || fscanf(f, "%*[^\n]") < 0) {
 		printf("Bail out! cannot read tests/data/mie_amplitudes.csv\n");
@@ -122,20 +122,20 @@ static void oracle(void)
 		double complex s1, s2;
 		if (x != v[0] || m != CMPLX(v[1], v[2])) {
 			struct waves w = waves(x = v[0], m = CMPLX(v[1], v[2]));
-			series_free(s);
-			s = mie_series(w.n, w.a, w.b);
+			legendre_series_free(s);
+			s = mie_fast_amplitudes_new(w.n, w.a, w.b);
 			if (!s)
 				exit(2);
 			reference(&w, 0, zero);
 			drop(&w);
 		}
-		mie_series_at(s, 1, &v[3], &s1, &s2);
+		mie_fast_amplitudes_at(s, 1, &v[3], &s1, &s2);
 		double e = fmax(cabs(s1 - CMPLX(v[4], v[5])), cabs(s2 - CMPLX(v[6], v[7]))) / cabs(zero[0]);
 		worst = fmax(worst, e / fmax(1, 100 * DBL_EPSILON * 2 * cabs(m) / cabs(m - 1) / 1e-10));    /* as far as m - 1 is known */
 		rows++;
 	}
 	fclose(f);
-	series_free(s);
+	legendre_series_free(s);
 	ok(rows == 533 && worst <= 1e-10, "%d reference amplitudes within 1e-10 S(0) (%.2g)", rows, worst);
 }
 
@@ -145,22 +145,22 @@ static void independence(void)
 	struct waves w = waves(700, 1.4 + 0.001 * I);
 	double theta[501];
 	double complex s[2][501], one[2], other[2][501];
-	angles_equal(501, theta);
+	angle_grid_equal(501, theta);
 	int same = 1, alone = 1;
 	for (int c = 0; c < CPU_LEVELS; c++) {
 		if (!cpu_has(c))
 			continue;
 		setenv("MOTES_CPU", cpu_name(c), 1);
-		struct series *series = mie_series(w.n, w.a, w.b);
+		struct legendre_series *series = mie_fast_amplitudes_new(w.n, w.a, w.b);
 		if (!series)
 			exit(2);
-		mie_series_at(series, 501, theta, c ? other[0] : s[0], c ? other[1] : s[1]);
+		mie_fast_amplitudes_at(series, 501, theta, c ? other[0] : s[0], c ? other[1] : s[1]);
 		same &= !c || !memcmp(s, other, sizeof s);
 		for (int i = 0; i < 501; i += 7) {
-			mie_series_at(series, 1, &theta[i], &one[0], &one[1]);
+			mie_fast_amplitudes_at(series, 1, &theta[i], &one[0], &one[1]);
 			alone &= one[0] == s[0][i] && one[1] == s[1][i];
 		}
-		series_free(series);
+		legendre_series_free(series);
 	}
 	unsetenv("MOTES_CPU");
 	drop(&w);
@@ -185,16 +185,16 @@ static double sphere(int steps, double (*f)(void *, double), void *context)
 }
 
 struct sphere {
-	struct series *series;
+	struct legendre_series *series;
 	double norm;
 };
 
 static double p_at(void *context, double theta)
 {
 	struct sphere *s = context;
-	double v[1][SERIES], sum = 0;
-	series_at(s->series, 1, &theta, v);
-	for (int i = 0; i < SERIES; i++)
+	double v[1][LEGENDRE_SERIES_SUMS], sum = 0;
+	legendre_series_at(s->series, 1, &theta, v);
+	for (int i = 0; i < LEGENDRE_SERIES_SUMS; i++)
 		sum += v[0][i] * v[0][i];
 	return sum / (2 * s->norm);
 }
@@ -202,7 +202,8 @@ static double p_at(void *context, double theta)
 static struct sphere sphere_of(double x, double complex m, int *n)
 {
 	struct waves w = waves(x, m);
-	struct sphere s = { mie_series(w.n, w.a, w.b), M_PI * x * x * mie_efficiencies(x, cimag(m) == 0, w.n, w.a, w.b, NULL).sca };
+	struct sphere s = { mie_fast_amplitudes_new(w.n, w.a, w.b),
+		M_PI * x * x * mie_efficiencies(x, cimag(m) == 0, w.n, w.a, w.b, NULL).sca };
 	if (!s.series)
 		exit(2);
 	*n = w.n;
@@ -223,7 +224,7 @@ static void normalisation(void)
 		while (steps < 2 * n)
 			steps *= 2;
 		worst = fmax(worst, fabs(sphere(steps, p_at, &s) - 1));
-		series_free(s.series);
+		legendre_series_free(s.series);
 	}
 	ok(worst <= 1e-10, "p integrates to 1 over the sphere within 1e-10 (%.2g)", worst);
 }
@@ -240,12 +241,12 @@ static void thinning(void)
 	for (size_t k = 0; k < sizeof at / sizeof *at; k++) {
 		int terms, steps = (int)(101 * at[k].x) + 20000;
 		struct sphere s = sphere_of(at[k].x, at[k].m, &terms);
-		long n = angles_fine(at[k].x, at[k].tolerance, NULL), *keep = room((size_t)n, sizeof *keep);
+		long n = angle_grid_fine(at[k].x, at[k].tolerance, NULL), *keep = room((size_t)n, sizeof *keep);
 		double *theta = room((size_t)n, sizeof *theta), *p = room((size_t)n, sizeof *p), error = 0;
-		angles_fine(at[k].x, at[k].tolerance, theta);
+		angle_grid_fine(at[k].x, at[k].tolerance, theta);
 		for (long i = 0; i < n; i++)
 			p[i] = p_at(&s, theta[i]);
-		long kept = angles_thin(n, theta, 1, &p, at[k].tolerance, keep), j = 0;
+		long kept = angle_grid_thin(n, theta, 1, &p, at[k].tolerance, keep), j = 0;
 		int good = kept >= 181 && keep[0] == 0 && keep[kept - 1] == n - 1 && theta[0] == 0 && theta[n - 1] == 180;
 		for (long i = 0; i + 1 < kept; i++)
 			good &= theta[keep[i + 1]] > theta[keep[i]] && theta[keep[i + 1]] - theta[keep[i]] <= 1 + 1e-12;
@@ -265,7 +266,7 @@ static void thinning(void)
 		free(keep);
 		free(theta);
 		free(p);
-		series_free(s.series);
+		legendre_series_free(s.series);
 	}
 	ok(over <= 1.001, "p linear between the angles chosen is within the tolerance (%.4g of it)", over);
 	ok(many <= 1, "and these are few (%.3g of what is allowed)", many);
@@ -274,19 +275,19 @@ static void thinning(void)
 	/* Two waves at once: each within the tolerance, so no fewer than for either. */
 	int terms;
 	struct sphere s[2] = { sphere_of(50, 1.33, &terms), sphere_of(41, 1.33, &terms) };
-	long n = angles_fine(50, 1e-3, NULL), *keep = room((size_t)n, sizeof *keep), kept[3];
+	long n = angle_grid_fine(50, 1e-3, NULL), *keep = room((size_t)n, sizeof *keep), kept[3];
 	double *theta = room((size_t)n, sizeof *theta), *p[2] = { room((size_t)n, sizeof(double)), room((size_t)n, sizeof(double)) };
-	angles_fine(50, 1e-3, theta);
+	angle_grid_fine(50, 1e-3, theta);
 	for (int w = 0; w < 2; w++) {
 		for (long i = 0; i < n; i++)
 			p[w][i] = p_at(&s[w], theta[i]);
-		kept[w] = angles_thin(n, theta, 1, &p[w], 1e-3, keep);
+		kept[w] = angle_grid_thin(n, theta, 1, &p[w], 1e-3, keep);
 	}
-	kept[2] = angles_thin(n, theta, 2, p, 1e-3, keep);
+	kept[2] = angle_grid_thin(n, theta, 2, p, 1e-3, keep);
 	ok(kept[2] >= kept[0] && kept[2] >= kept[1], "angles for two at once: %ld, for each %ld and %ld", kept[2], kept[0], kept[1]);
 	for (int w = 0; w < 2; w++) {
 		free(p[w]);
-		series_free(s[w].series);
+		legendre_series_free(s[w].series);
 	}
 	free(theta);
 	free(keep);
@@ -299,7 +300,7 @@ static void enough(void)
 	for (double x = 10; x < 2000; x *= 5)
 		for (double tolerance = 1e-2; tolerance > 1e-7; tolerance /= 100) {
 			struct waves w = waves(x, 1.33);
-			int n = mie_enough(w.n, w.a, w.b, tolerance), steps = 20 * (int)x + 500;
+			int n = mie_terms_enough(w.n, w.a, w.b, tolerance), steps = 20 * (int)x + 500;
 			double *theta = room((size_t)steps, sizeof *theta), error = 0;
 			double complex *s = room(4 * (size_t)steps, sizeof *s), *s2 = s + steps, *t1 = s2 + steps, *t2 = t1 + steps;
 			for (int i = 0; i < steps; i++)

@@ -221,43 +221,43 @@ static void near_axis(const struct edge *e, const struct edge_packet *k, double 
 		}
 }
 
-/* Half a row of a spectrum: real or imaginary parts. */
+/* Half a row of a transform: real or imaginary parts. */
 typedef double row __attribute__((vector_size(32), aligned(8), may_alias));
 
-/* Where in a spectrum EDGE_WIDTH angles are: the row below, and the kernel's weights of the rows from 3 before it on. */
-static void locate(const struct spectrum *spectrum, const double phi[EDGE_WIDTH], int at[EDGE_WIDTH],
-		   double weight[SPECTRUM_TAPS][EDGE_WIDTH])
+/* Where in a transform EDGE_WIDTH angles are: the row below, and the kernel's weights of the rows from 3 before it on. */
+static void locate(const struct nufft *nufft, const double phi[EDGE_WIDTH], int at[EDGE_WIDTH],
+		   double weight[NUFFT_TAPS][EDGE_WIDTH])
 {
-	double part[EDGE_WIDTH], size = spectrum->size;
+	double part[EDGE_WIDTH], size = nufft->size;
 	for (int i = 0; i < EDGE_WIDTH; i++) {
 		double turns = phi[i] * (1 / (2 * M_PI)), place = (turns - floor(turns)) * size;
 		at[i] = (int)place;
 		part[i] = place - at[i];
 	}
-	for (int t = 0; t < SPECTRUM_TAPS; t++)
+	for (int t = 0; t < NUFFT_TAPS; t++)
 #pragma omp simd
 		for (int i = 0; i < EDGE_WIDTH; i++) {
 			double z = (t - 3 - part[i]) * 0.25, inside = 1 - z * z;
-			weight[t][i] = lane_decay(SPECTRUM_SHAPE * (1 - sqrt(lane_select(0, inside, inside, 0))));
+			weight[t][i] = lane_decay(NUFFT_SHAPE * (1 - sqrt(lane_select(0, inside, inside, 0))));
 		}
 }
 
 /* Away from the axes, where d^l_1,+-1 = sqrt(2/(pi nu sin theta)) cos(nu theta - pi/4 - c/nu), nu = l + 1/2. */
 static void far_strip(const struct edge_strip *strip, const struct edge_packet *k, double s[4][EDGE_WIDTH])
 {
-	const struct spectrum *spectrum = &strip->spectrum;
-	double nu = strip->about, centre = strip->first + strip->n / 2 + 0.5, phi[EDGE_WIDTH], weight[SPECTRUM_TAPS][EDGE_WIDTH];
+	const struct nufft *nufft = &strip->nufft;
+	double nu = strip->about, centre = strip->first + strip->n / 2 + 0.5, phi[EDGE_WIDTH], weight[NUFFT_TAPS][EDGE_WIDTH];
 	double value[8][EDGE_WIDTH];
 	int at[EDGE_WIDTH];
 	for (int i = 0; i < EDGE_WIDTH; i++)
 		phi[i] = k->theta[i] + (k->plus[i] + k->minus[i]) / (2 * nu * nu);
-	locate(spectrum, phi, at, weight);
+	locate(nufft, phi, at, weight);
 	for (int i = 0; i < EDGE_WIDTH; i++) {
 		/* the sums at phi and -phi */
-		const double *above = spectrum->row + 8 * (at[i] - 3);
-		const double *below = spectrum->row + 8 * (((spectrum->size - at[i]) & (spectrum->size - 1)) + 3);
+		const double *above = nufft->row + 8 * (at[i] - 3);
+		const double *below = nufft->row + 8 * (((nufft->size - at[i]) & (nufft->size - 1)) + 3);
 		row up_re = { 0 }, up_im = { 0 }, down_re = { 0 }, down_im = { 0 };
-		for (int t = 0; t < SPECTRUM_TAPS; t++) {
+		for (int t = 0; t < NUFFT_TAPS; t++) {
 			up_re += weight[t][i] * *(const row *)(above + 8 * t);
 			up_im += weight[t][i] * *(const row *)(above + 8 * t + 4);
 			down_re += weight[t][i] * *(const row *)(below - 8 * t);
@@ -315,7 +315,7 @@ static void waves(const struct edge *e, const struct edge_packet *k, double s[4]
 {
 	int far = 1, front = 0;
 	for (int strip = 0; strip < e->n; strip++)
-		far &= e->strip[strip].spectrum.size && e->strip[strip].first * k->sine > EDGE_FAR;
+		far &= e->strip[strip].nufft.size && e->strip[strip].first * k->sine > EDGE_FAR;
 	if (!far) {
 		near_axis(e, k, s);
 		return;

@@ -123,7 +123,7 @@ static void set_windows(struct edge *e)
 		e->same[p] = !memcmp(&e->window[p], &e->window[p - 1], sizeof e->window[p]);
 }
 
-/* Room for waves l of u from .. to; their coefficients, and the spectrum. */
+/* Room for waves l of u from .. to; their coefficients, and the transform. */
 static int strip_set(const struct goa_lanes *lanes, struct edge *e, struct edge_strip *strip, double from, double to,
 		     double about, const struct window *only)
 {
@@ -144,7 +144,7 @@ static int strip_set(const struct goa_lanes *lanes, struct edge *e, struct edge_
 	strip->sum_behind = strip->sum + 2 * n;
 	strip->difference = strip->sum + 4 * n;
 	e->lost += lanes->coefficients(e, only, strip);
-	strip->spectrum.size = 0;
+	strip->nufft.size = 0;
 	if (first < EDGE_FAR)
 		return 0;
 	double *scaled = strip->sum + 6 * n;
@@ -153,7 +153,7 @@ static int strip_set(const struct goa_lanes *lanes, struct edge *e, struct edge_
 		scaled[2 * k] = strip->sum[2 * k] * scale;
 		scaled[2 * k + 1] = strip->sum[2 * k + 1] * scale;
 	}
-	return spectrum_set(&strip->spectrum, (int)n, (const double *[4]){ scaled, scaled + 2 * n, scaled + 4 * n, NULL });
+	return nufft_set(&strip->nufft, (int)n, (const double *[4]){ scaled, scaled + 2 * n, scaled + 4 * n, NULL });
 }
 
 int edge_set(const struct goa_lanes *lanes, struct edge *e, double x, double complex m)
@@ -187,7 +187,7 @@ void edge_free(struct edge *e)
 {
 	for (int k = 0; k < 2; k++) {
 		free(e->strip[k].sum);
-		spectrum_free(&e->strip[k].spectrum);
+		nufft_free(&e->strip[k].nufft);
 	}
 }
 

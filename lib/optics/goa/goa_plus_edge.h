@@ -28,7 +28,7 @@ struct edge_strip {
 	/* coefficients of S1 + S2 (the disc's wave removed; not removed) and S1 - S2, re, im */
 	double *sum, *sum_behind, *difference;
 	/* of the same over sqrt(l + 1/2); size 0: no angle is far from both axes for such long waves */
-	struct spectrum spectrum;
+	struct nufft nufft;
 };
 
 struct edge {

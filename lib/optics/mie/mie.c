@@ -132,12 +132,12 @@ int mie_coefficients(double x, double complex m, int n, double complex *a, doubl
 
 static void take_sums(const struct mie_lanes *lanes, const struct mie_row *r, void *context) { lanes->sums(r, context); }
 
-int mie_alone(const struct mie_lanes *lanes, double x, double complex m, int n, struct efficiencies *q, double *error)
+int mie_one(const struct mie_lanes *lanes, double x, double complex m, int n, struct efficiencies *q, double *error)
 {
 	struct mie_sums sums = { 0 };
 	int bad = by_orders(lanes, x, m, n, 1, take_sums, &sums);
-	*q = mie_of_sums(x, cimag(m) == 0, &sums);
-	*error = mie_error_of_sums(x, cimag(m) == 0, &sums);
+	*q = mie_sums_efficiencies(x, cimag(m) == 0, &sums);
+	*error = mie_sums_error(x, cimag(m) == 0, &sums);
 	return bad;
 }
 
@@ -152,7 +152,7 @@ int mie_lossless(int n, const double complex *a, const double complex *b)
 	return 1;
 }
 
-struct efficiencies mie_of_sums(double x, int lossless, const struct mie_sums *s)
+struct efficiencies mie_sums_efficiencies(double x, int lossless, const struct mie_sums *s)
 {
 	double sca = lossless || s->sca > s->ext ? s->ext : s->sca;    /* greater by rounding alone: Re a >= |a|^2 */
 	struct efficiencies q;
@@ -164,7 +164,7 @@ struct efficiencies mie_of_sums(double x, int lossless, const struct mie_sums *s
 	return q;
 }
 
-double mie_error_of_sums(double x, int lossless, const struct mie_sums *s)
+double mie_sums_error(double x, int lossless, const struct mie_sums *s)
 {
 	/* The largest coefficient is about (4/9) |m-1| x^3 where x is small, |m-1| x where it is large and m near 1; of all, the sum of
 	 * (2l+1) |a|^2 tells: 3 |a_1|^2 or about x^2 times the largest. */
@@ -204,6 +204,6 @@ struct efficiencies mie_efficiencies(double x, int lossless, int n, const double
 	struct mie_sums sums;
 	mie_sums_of(lossless, n, a, b, &sums);
 	if (error)
-		*error = mie_error_of_sums(x, lossless, &sums);
-	return mie_of_sums(x, lossless, &sums);
+		*error = mie_sums_error(x, lossless, &sums);
+	return mie_sums_efficiencies(x, lossless, &sums);
 }
