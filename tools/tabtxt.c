@@ -99,18 +99,15 @@ static void as_npy(struct tab *t, FILE *f, int n, const int *index)
 	char *dict = xtext("{'descr': [");
 	for (int i = 0; i < n; i++) {
 		const struct tab_col *c = &cols[index[i]];
-		char *longer = xtext("%s('%s', '<%s'), ", dict, c->name, c->type == TAB_I32 ? "i4" : c->type == TAB_F32 ? "f4" : "f8");
-		free(dict);
-		dict = longer;
+		xappend(&dict, "('%s', '<%s'), ", c->name, c->type == TAB_I32 ? "i4" : c->type == TAB_F32 ? "f4" : "f8");
 	}
-	char *head = xtext("%s], 'fortran_order': False, 'shape': (%llu,), }", dict, (unsigned long long)count);
-	size_t length = (strlen(head) + 1 + 10 + 63) / 64 * 64 - 10;    /* data starts on a multiple of 64 bytes */
+	xappend(&dict, "], 'fortran_order': False, 'shape': (%llu,), }", (unsigned long long)count);
+	size_t length = (strlen(dict) + 1 + 10 + 63) / 64 * 64 - 10;    /* data starts on a multiple of 64 bytes */
 	fwrite("\x93NUMPY\x01\x00", 1, 8, f);
 	putc((int)(length & 255), f);
 	putc((int)(length >> 8), f);
-	fprintf(f, "%-*s\n", (int)length - 1, head);
+	fprintf(f, "%-*s\n", (int)length - 1, dict);
 	free(dict);
-	free(head);
 	rewind(rows);
 	char buffer[1 << 16];
 	for (size_t got; (got = fread(buffer, 1, sizeof buffer, rows)) > 0;)

@@ -3,13 +3,10 @@
 #define FORMAT_EXR_H
 
 #include "base/out.h"
+#include "format/limits.h"
 
 #include <stddef.h>
 #include <stdint.h>
-
-#define EXR_CHANNELS 1024
-#define EXR_SIDE_MAX 32768
-#define EXR_NAME 64
 
 struct exr_channel {
 	char name[EXR_NAME];

@@ -5,11 +5,10 @@
 #ifndef FORMAT_TAB_H
 #define FORMAT_TAB_H
 
+#include "format/limits.h"
+
 #include <stddef.h>
 #include <stdint.h>
-
-#define TAB_COLS 64
-#define TAB_NAME 32
 
 enum tab_type { TAB_I32, TAB_F32, TAB_F64 };
 
