@@ -1,11 +1,13 @@
 /* medium-bake - particles, or a size distribution with a concentration, and their optics become a medium file. */
 #include "base/die.h"
 #include "base/opt.h"
+#include "format/limits.h"
 #include "format/tab.h"
 #include "medium/bake.h"
-#include "medium/particle_grid.h"
 #include "medium/classes.h"
+#include "medium/medium_file.h"
 #include "medium/particle_counts.h"
+#include "medium/particle_grid.h"
 
 #include <float.h>
 #include <math.h>
@@ -61,6 +63,6 @@ int main(int argc, char **argv)
 		particle_grid_build(&m);
 		particle_counts_build(&m, (int)voxels);
 	}
-	medium_write(output, &m);
+	medium_file_write(output, &m);
 	return 0;
 }

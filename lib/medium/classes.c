@@ -2,6 +2,7 @@
 
 #include "base/ascending.h"
 #include "base/die.h"
+#include "format/limits.h"
 #include "format/tab.h"
 #include "optics/phase/phase.h"
 
@@ -227,7 +228,7 @@ static struct curve *read_curves(struct tab *t, const struct medium *m, int *sha
 			die(tab_path(t), "row %llu: theta %g is not ascending in [0, 180] deg", number, row[theta]);
 		if (!(row[p] >= 0) || !isfinite(row[p]))
 			die(tab_path(t), "row %llu: p %g is not a finite number of at least 0", number, row[p]);
-		if (now->n == 1 << 24)
+		if (now->n == PHASE_ANGLES_MAX)
 			die(tab_path(t), "row %llu: more than 2^24 angles", number);
 		curve_add(now, angle, row[p]);
 	}

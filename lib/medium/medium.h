@@ -1,12 +1,10 @@
-/* medium - a baked medium: optics by class and wavelength, phase functions, and the particles in their grid; medium(5). */
+/* medium - a baked medium: optics by class and wavelength, phase functions, and the particles in their grid. Its arrays are those
+ * of medium(5), of which medium_file has the readers and writers. */
 #ifndef MEDIUM_MEDIUM_H
 #define MEDIUM_MEDIUM_H
 
 #include <stddef.h>
 #include <stdint.h>
-
-#define MEDIUM_CLASSES 4096
-#define MEDIUM_WAVES 1024
 
 /* What the matter of a medium is: single particles, which cubes also count; or a field of relative density, of which the classes
  * have their expected numbers. */
@@ -40,9 +38,6 @@ struct medium {
 	size_t n_density;
 	float *density;                 /* [z][y][x] of MEDIUM_DENSITY: relative density, see density.h */
 	double matter;                  /* m^3, integral of the density over the medium */
-	uint32_t crc;                   /* of an open file: what a history says of its content */
-	void *map;
-	size_t map_size;
 };
 
 /* medium_volume - in m^3. */
@@ -50,14 +45,5 @@ double medium_volume(const struct medium *m);
 
 /* medium_depth - mean optical depth along the shortest axis at the first wavelength. */
 double medium_depth(const struct medium *m);
-
-/* medium_write - write a file (not standard output: it is mapped when read). Dies. */
-void medium_write(const char *path, const struct medium *m);
-
-/* medium_open - verify a file by one sequential read, map it and check its indices, so that the kernels can rely on
- * them, and the ranges of its values. Dies. */
-void medium_open(const char *path, struct medium *m);
-
-void medium_close(struct medium *m);
 
 #endif

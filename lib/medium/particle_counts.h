@@ -4,8 +4,6 @@
 
 #include "medium/medium.h"
 
-#define MEDIUM_VOXELS_SIDE 4096
-
 /* particle_counts_level - size of level l over a finest level n[3]: each level halves the one before, rounding up, down to one cube.
  * Returns the number of cubes before it in the pyramid. */
 size_t particle_counts_level(const int32_t *n, int l, int32_t *size);

@@ -1,6 +1,7 @@
 #include "medium/particle_grid.h"
 
 #include "base/die.h"
+#include "format/limits.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -53,8 +54,8 @@ static void place(struct medium *m)
 		for (int a = 0; a < 3; a++) {
 			double n = fmax(1, ceil((high[a] - low[a]) / side));
 			total *= n;
-			m->cells[a] = (int32_t)fmin(n, PARTICLE_GRID_SIDE);
-			total = n > PARTICLE_GRID_SIDE ? INFINITY : total;
+			m->cells[a] = (int32_t)fmin(n, MEDIUM_CELLS_SIDE);
+			total = n > MEDIUM_CELLS_SIDE ? INFINITY : total;
 		}
 	}
 	for (int a = 0; a < 3; a++) {
