@@ -1,8 +1,8 @@
 /* particles - place the particles of a size distribution at random. */
 #include "base/die.h"
-#include "format/npy.h"
 #include "base/opt.h"
-#include "format/tab.h"
+#include "format/columns.h"
+#include "format/npy.h"
 #include "medium/density.h"
 #include "medium/rng.h"
 
@@ -23,7 +23,7 @@ struct sizes {
 static struct sizes read_sizes(struct tab *t)
 {
 	struct sizes s = { 0, NULL, NULL };
-	int radius = tab_need(t, "radius", "um"), weight = tab_need(t, "weight", "1");
+	int radius = tab_need(t, &column_radius), weight = tab_need(t, &column_weight);
 	double row[TAB_COLS], sum = 0;
 	for (size_t room = 0; tab_next(t, row); s.n++) {
 		if (s.n == room) {
@@ -133,7 +133,7 @@ int main(int argc, char **argv)
 		count = INFINITY;
 	}
 	const struct tab_col cols[] = {
-		{ "x", TAB_F32, "m" }, { "y", TAB_F32, "m" }, { "z", TAB_F32, "m" }, { "radius", TAB_F64, "um" }, { "class", TAB_I32, "1" },
+		column_position[0], column_position[1], column_position[2], column_radius, column_class,
 	};
 	struct tab_out *out = tab_create(output, tab_history(t), args.history, 5, cols);
 	tab_close(t);

@@ -190,22 +190,22 @@ int tab_ncols(const struct tab *t) { return t->ncols; }
 const struct tab_col *tab_cols(const struct tab *t) { return t->cols; }
 uint64_t tab_row(const struct tab *t) { return t->rows; }
 
-int tab_find(const struct tab *t, const char *name, const char *unit)
+int tab_find(const struct tab *t, const struct tab_col *col)
 {
 	for (int i = 0; i < t->ncols; i++)
-		if (!strcmp(t->cols[i].name, name)) {
-			if (strcmp(t->cols[i].unit, unit))
-				die(t->path, "column %s is in '%s'; '%s' is needed", name, t->cols[i].unit, unit);
+		if (!strcmp(t->cols[i].name, col->name)) {
+			if (strcmp(t->cols[i].unit, col->unit))
+				die(t->path, "column %s is in '%s'; '%s' is needed", col->name, t->cols[i].unit, col->unit);
 			return i;
 		}
 	return -1;
 }
 
-int tab_need(const struct tab *t, const char *name, const char *unit)
+int tab_need(const struct tab *t, const struct tab_col *col)
 {
-	int i = tab_find(t, name, unit);
+	int i = tab_find(t, col);
 	if (i < 0)
-		die(t->path, "has no column %s", name);
+		die(t->path, "has no column %s", col->name);
 	return i;
 }
 

@@ -1,7 +1,7 @@
 #include "medium/bake.h"
 
 #include "base/die.h"
-#include "format/tab.h"
+#include "format/columns.h"
 #include "medium/density.h"
 #include "medium/classes.h"
 #include "medium/particle_counts.h"
@@ -57,7 +57,7 @@ void bake_density(const char *path, int longest, struct medium *m)
 char *bake_psd(const char *path, double concentration, struct medium *m)
 {
 	struct tab *t = tab_open(path);
-	int radius = tab_need(t, "radius", "um"), weight = tab_need(t, "weight", "1");
+	int radius = tab_need(t, &column_radius), weight = tab_need(t, &column_weight);
 	double row[TAB_COLS], sum = 0;
 	while (tab_next(t, row)) {
 		unsigned long long number = (unsigned long long)tab_row(t);
@@ -88,7 +88,7 @@ static int outside(const struct medium *m, const double *q)
 char *bake_particles(const char *path, int bounded, struct medium *m)
 {
 	struct tab *t = tab_open(path);
-	int x = tab_need(t, "x", "m"), y = tab_need(t, "y", "m"), z = tab_need(t, "z", "m"), radius = tab_need(t, "radius", "um");
+	int x = tab_need(t, &column_position[0]), y = tab_need(t, &column_position[1]), z = tab_need(t, &column_position[2]), radius = tab_need(t, &column_radius);
 	double row[TAB_COLS], low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY };
 	size_t room = 0;
 	while (tab_next(t, row)) {

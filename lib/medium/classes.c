@@ -2,8 +2,8 @@
 
 #include "base/ascending.h"
 #include "base/die.h"
+#include "format/columns.h"
 #include "format/limits.h"
-#include "format/tab.h"
 #include "optics/phase/phase.h"
 
 #include <math.h>
@@ -49,8 +49,8 @@ static void positive(const struct tab *t, const char *name, double v)
 char *classes_cross_sections(const char *path, struct medium *m)
 {
 	struct tab *t = tab_open(path);
-	int wavelength = tab_need(t, "wavelength", "um"), radius = tab_need(t, "radius", "um");
-	int c_ext = tab_need(t, "c_ext", "um^2"), c_sca = tab_need(t, "c_sca", "um^2");
+	int wavelength = tab_need(t, &column_wavelength), radius = tab_need(t, &column_radius);
+	int c_ext = tab_need(t, &column_c_ext), c_sca = tab_need(t, &column_c_sca);
 	double row[TAB_COLS], (*rows)[4] = NULL;
 	size_t n = 0;
 	while (tab_next(t, row)) {
@@ -205,8 +205,8 @@ static void curve_check(const struct tab *t, struct curve *c, double wavelength,
 /* Read the curves: [class][wave], or [1][wave] for a table without radius. */
 static struct curve *read_curves(struct tab *t, const struct medium *m, int *shared)
 {
-	int wavelength = tab_need(t, "wavelength", "um"), radius = tab_find(t, "radius", "um");
-	int theta = tab_need(t, "theta", "deg"), p = tab_need(t, "p", "sr^-1");
+	int wavelength = tab_need(t, &column_wavelength), radius = tab_find(t, &column_radius);
+	int theta = tab_need(t, &column_theta), p = tab_need(t, &column_p);
 	*shared = radius < 0;
 	int classes = *shared ? 1 : m->n_classes;
 	struct curve *curves = xalloc((size_t)classes * (size_t)m->n_waves, sizeof *curves), *now = NULL;
