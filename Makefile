@@ -54,6 +54,7 @@ DOUBLES_v3 = -DLANES=4 -march=x86-64-v3
 DOUBLES_v4 = -DLANES=8 -march=x86-64-v4 -mprefer-vector-width=512
 FLAGS_mie_lanes = -funroll-loops
 FLAGS_goa_lanes = -O3 -fno-trapping-math -fcx-limited-range -fno-tree-slp-vectorize
+FLAGS_goa_plus_lanes = $(FLAGS_goa_lanes)
 FLAGS_legendre_series_lanes = -O3
 LOOP_OBJECTS = $(foreach loop,$(LOOPS:lib/%.c=%),$(BUILT:%=obj/$(loop)/%.o))
 MAN = $(wildcard man/*.[1-9])

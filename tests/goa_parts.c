@@ -1,6 +1,6 @@
 /* What GOA+ is made of: Airy functions, sums of exponentials, windows, rays to second order. */
 #include "optics/numerics/airy.h"
-#include "optics/goa/goa_plus_edge.h"
+#include "optics/goa/goa_plus_windows.h"
 #include "optics/goa/debye_order.h"
 #include "optics/goa/rays.h"
 #include "optics/numerics/nufft.h"
@@ -95,8 +95,8 @@ static void second_order(double complex m, int p, double lo, double hi, double w
 		sphere_sum(terms, a, b, t, &want[0], &want[1]);
 		for (int i = 0; i < rays; i++) {
 			const struct ray *r = &ray[i];
-			struct order_terms o;
-			order_terms(p, m, r->sin_i, t, r->sigma, r->axial, &o);
+			struct debye_order_terms o;
+			debye_order_terms(p, m, r->sin_i, t, r->sigma, r->axial, &o);
 			double spread = p ? sqrt(r->ratio * r->cos_i / r->slope) : 0.5;
 			double complex wave = -x * spread * cexp(I * (x * o.path + r->eighths * M_PI_4));
 			for (int j = 0; j < 2; j++) {
@@ -121,16 +121,16 @@ static void second_order(double complex m, int p, double lo, double hi, double w
 
 static void windows(void)
 {
-	struct window w = { 2, { 0, 0.7 }, { 0.3, 0.9 }, { 5, -10 } };     /* rises from 0.3 to 0.5, falls from 0.8 to 0.9 */
-	ok(window_at(&w, 0.2) == 0 && window_at(&w, 0.6) == 1 && window_at(&w, 0.75) == 1 && window_at(&w, 0.95) == 0 &&
-	   fabs(window_at(&w, 0.4) - 0.5) < 1e-15 && fabs(window_at(&w, 0.85) - 0.5) < 1e-12, "a window rises and falls");
-	ok(window_constant(&w, 0, 0.29) == 0 && window_constant(&w, 0.55, 0.79) == 1 && window_constant(&w, 0.2, 0.4) == -1 &&
-	   window_constant(&w, 0.1, 0.95) == -1 && window_constant(&w, 0.92, 2) == 0, "and says where it is constant");
+	struct goa_plus_window w = { 2, { 0, 0.7 }, { 0.3, 0.9 }, { 5, -10 } };     /* rises from 0.3 to 0.5, falls from 0.8 to 0.9 */
+	ok(goa_plus_window_at(&w, 0.2) == 0 && goa_plus_window_at(&w, 0.6) == 1 && goa_plus_window_at(&w, 0.75) == 1 && goa_plus_window_at(&w, 0.95) == 0 &&
+	   fabs(goa_plus_window_at(&w, 0.4) - 0.5) < 1e-15 && fabs(goa_plus_window_at(&w, 0.85) - 0.5) < 1e-12, "a window rises and falls");
+	ok(goa_plus_window_constant(&w, 0, 0.29) == 0 && goa_plus_window_constant(&w, 0.55, 0.79) == 1 && goa_plus_window_constant(&w, 0.2, 0.4) == -1 &&
+	   goa_plus_window_constant(&w, 0.1, 0.95) == -1 && goa_plus_window_constant(&w, 0.92, 2) == 0, "and says where it is constant");
 	double worst = 0;
 	for (double u = 0.31; u < 0.5; u += 0.01) {
-		double f1, f2, g1, g2, h = 1e-5, up = window_piece(0.3, 5, u + h, &g1, &g2);
-		double down = window_piece(0.3, 5, u - h, &f1, &f2), d1, d2;
-		window_piece(0.3, 5, u, &d1, &d2);
+		double f1, f2, g1, g2, h = 1e-5, up = smoothstep(0.3, 5, u + h, &g1, &g2);
+		double down = smoothstep(0.3, 5, u - h, &f1, &f2), d1, d2;
+		smoothstep(0.3, 5, u, &d1, &d2);
 		worst = fmax(worst, fmax(fabs((up - down) / (2 * h) - d1), fabs((g1 - f1) / (2 * h) - d2) / 100));
 	}
 	ok(worst < 1e-5, "its derivatives are those of it: %.1e", worst);

@@ -51,7 +51,7 @@ struct mie_row {
 	int absorbs, near, first, count;
 	int weighted;                         /* coefficients times 2l+1, as the sums take them */
 	double x, m_re, m_im, beyond;
-	const double *psi, *chi, *p;          /* these from first - 1; and what follows as in mie_solve.h, struct ratios */
+	const double *psi, *chi, *p;          /* these from first - 1; and what follows as in mie_downward.h, struct downward_orders */
 	const double *ex, *er, *ei, *size, *re, *im;
 	double *a_re, *a_im, *b_re, *b_im;    /* before them stand those of first - 1, or 0 */
 	double *sca;                          /* (|a|^2 + |b|^2) times as much, absorbing spheres only */
