@@ -1,5 +1,5 @@
-/* bake - what a medium is filled with: a density and a size distribution, or particles. The classes must be set, and the shape where
- * it is given. All die on bad input, with the table and its row. */
+/* bake - what a medium is filled with: a density and a size distribution, or particles. The classes must be set, and the shape
+ * where it is given. All die on bad input, with the table and its row. */
 #ifndef MEDIUM_BAKE_H
 #define MEDIUM_BAKE_H
 

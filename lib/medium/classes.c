@@ -91,7 +91,7 @@ char *classes_cross_sections(const char *path, struct medium *m)
 	return history;
 }
 
-int classes_find(const struct medium *m, double radius)
+static int nearest(const struct medium *m, double radius)
 {
 	int best = 0;
 	double gap[2] = { 1e-6, 1e-6 }, d;
@@ -105,6 +105,15 @@ int classes_find(const struct medium *m, double radius)
 	}
 	d = log(radius / m->radius[best]);
 	return fabs(d) <= (d < 0 ? gap[0] : gap[1]) * (1 + 1e-9) ? best : -1;
+}
+
+int classes_find(const struct medium *m, const struct tab *t, double radius)
+{
+	int class = radius > 0 ? nearest(m, radius) : -1;
+	if (class < 0)
+		die(tab_path(t), "row %llu: radius %g um fits none of the %d classes of --xsect", (unsigned long long)tab_row(t), radius,
+		    m->n_classes);
+	return class;
 }
 
 /* -------------------------------------------------------------------- phase functions */

@@ -2,6 +2,7 @@
 #ifndef MEDIUM_CLASSES_H
 #define MEDIUM_CLASSES_H
 
+#include "format/tab.h"
 #include "medium/medium.h"
 
 /* classes_cross_sections - read wavelength, radius, c_ext, c_sca; sets the classes and wavelengths of the medium.
@@ -14,7 +15,7 @@ char *classes_cross_sections(const char *path, struct medium *m);
 char *classes_phase_functions(const char *path, struct medium *m);
 
 /* classes_find - the class that a particle of this radius (um) belongs to: nearest in log radius and within half the gap to the
- * neighbouring class (outermost: the same gap outwards; a single class: 1e-6); -1 if it fits none. */
-int classes_find(const struct medium *m, double radius);
+ * neighbouring class (outermost: the same gap outwards; a single class: 1e-6). Dies, with the row of t, if it fits none. */
+int classes_find(const struct medium *m, const struct tab *t, double radius);
 
 #endif

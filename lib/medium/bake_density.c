@@ -2,13 +2,12 @@
 
 #include "base/die.h"
 #include "format/columns.h"
-#include "medium/density.h"
+#include "format/limits.h"
 #include "medium/classes.h"
-#include "medium/particle_counts.h"
+#include "medium/density.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 void bake_density(const char *path, int longest, struct medium *m)
 {
@@ -61,9 +60,7 @@ char *bake_psd(const char *path, double concentration, struct medium *m)
 	double row[TAB_COLS], sum = 0;
 	while (tab_next(t, row)) {
 		unsigned long long number = (unsigned long long)tab_row(t);
-		int class = row[radius] > 0 ? classes_find(m, row[radius]) : -1;
-		if (class < 0)
-			die(tab_path(t), "row %llu: radius %g um fits none of the %d classes of --xsect", number, row[radius], m->n_classes);
+		int class = classes_find(m, t, row[radius]);
 		if (!(row[weight] >= 0) || !isfinite(row[weight]))
 			die(tab_path(t), "row %llu: weight %g is not a finite number of at least 0", number, row[weight]);
 		m->count[class] += row[weight];
@@ -73,56 +70,6 @@ char *bake_psd(const char *path, double concentration, struct medium *m)
 		die(tab_path(t), "the weights sum to %g, not to 1", sum);
 	for (int k = 0; k < m->n_classes; k++)
 		m->count[k] *= concentration * m->matter / sum;
-	char *history = xtext("%s", tab_history(t));
-	tab_close(t);
-	return history;
-}
-
-static int outside(const struct medium *m, const double *q)
-{
-	if (m->round)
-		return sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]) > m->half[0] * (1 + 1e-6);
-	return fabs(q[0]) > m->half[0] * (1 + 1e-6) || fabs(q[1]) > m->half[1] * (1 + 1e-6) || fabs(q[2]) > m->half[2] * (1 + 1e-6);
-}
-
-char *bake_particles(const char *path, int bounded, struct medium *m)
-{
-	struct tab *t = tab_open(path);
-	int x = tab_need(t, &column_position[0]), y = tab_need(t, &column_position[1]), z = tab_need(t, &column_position[2]), radius = tab_need(t, &column_radius);
-	double row[TAB_COLS], low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY };
-	size_t room = 0;
-	while (tab_next(t, row)) {
-		unsigned long long number = (unsigned long long)tab_row(t);
-		double q[3] = { row[x], row[y], row[z] };
-		int32_t class = row[radius] > 0 ? classes_find(m, row[radius]) : -1;
-		if (class < 0)
-			die(tab_path(t), "row %llu: radius %g um fits none of the %d classes of --xsect", number, row[radius], m->n_classes);
-		for (int a = 0; a < 3; a++) {
-			if (!(fabs(q[a]) < 1e9))
-				die(tab_path(t), "row %llu: a position is not within 1e9 m", number);
-			low[a] = fmin(low[a], q[a]);
-			high[a] = fmax(high[a], q[a]);
-		}
-		if (bounded && outside(m, q))
-			die(tab_path(t), "row %llu: the particle lies outside the box or sphere given", number);
-		if (m->n_particles == room) {
-			room = room ? 2 * room : 1024;
-			m->particle = xgrow(m->particle, room, 4 * sizeof *m->particle);
-		}
-		float *to = m->particle + 4 * m->n_particles;
-		for (int a = 0; a < 3; a++)
-			to[a] = (float)q[a];
-		memcpy(&to[3], &class, 4);
-		m->count[class]++;
-		if (++m->n_particles > INT32_MAX / 4)
-			die(tab_path(t), "more than %d particles", INT32_MAX / 4);
-	}
-	if (!m->n_particles)
-		die(tab_path(t), "has no rows");
-	/* Without a box: the bounding box of the centres about the origin, widened by what n uniform centres leave free on the
-	 * average, and no less than a particle. */
-	for (int a = 0; a < 3 && !bounded; a++)
-		m->half[a] = fmax(fmax(fabs(low[a]), fabs(high[a])) * (1 + 1.0 / (double)m->n_particles), 1e-6 * m->radius[m->n_classes - 1]);
 	char *history = xtext("%s", tab_history(t));
 	tab_close(t);
 	return history;
