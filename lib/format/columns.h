@@ -1,5 +1,5 @@
-/* columns - the one list of the columns by which programs understand each other's tables: name, type as it is written (any is read),
- * unit. A new column is one line here, and one in the manual page of the tool that writes it. */
+/* columns - the one list of the columns by which programs understand each other's tables: name, type as it is written (any is
+ * read), unit. A new column is one line here, and one in the manual page of the tool that writes it. */
 #ifndef FORMAT_COLUMNS_H
 #define FORMAT_COLUMNS_H
 

@@ -1,8 +1,8 @@
 /* limits - how much a reader takes from a file before it refuses: files come from other people, and a header of a few bytes must
  * not cost memory or time out of proportion to its file. Each with its reason; a reader dies beyond, and says what is too large.
  *
- * What a command line may say is in the tools' tables of options (base/opt.h), what a scene may in render/scene_file.c, and what is
- * in reach of a theory in toolkit/size.h. */
+ * What a command line may say is in the tools' tables of options (base/opt.h), what a scene may in render/scene_file.c, and
+ * what is in reach of a theory in toolkit/size.h. */
 #ifndef FORMAT_LIMITS_H
 #define FORMAT_LIMITS_H
 

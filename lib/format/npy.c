@@ -92,8 +92,9 @@ static size_t open_array(const struct source *s, size_t n[3])
 	for (size_t i = 0; i < sizeof types / sizeof *types; i++)
 		if (!strncmp(descr, types[i].descr, strlen(types[i].descr)))
 			bytes = types[i].bytes;
+	size_t type = strcspn(descr, ",}\n");
 	if (!bytes)
-		die(s->name, "has type %.*s; a density grid is |u1, <f4 or <f8", (int)strcspn(descr, ",}\n") > 32 ? 32 : (int)strcspn(descr, ",}\n"), descr);
+		die(s->name, "has type %.*s; a density grid is |u1, <f4 or <f8", type > 32 ? 32 : (int)type, descr);
 	if (strncmp(entry(s, header, "fortran_order"), "False", 5))
 		die(s->name, "is in Fortran order; a density grid is in C order");
 	shape(s, entry(s, header, "shape"), n);

@@ -1,5 +1,5 @@
-/* tab_text - tables as text: "# name:type:unit" for each column in the first line, then the rows, all with tabs between; or CSV, which
- * has the names alone. Everything dies at the first error, with its line. */
+/* tab_text - tables as text: "# name:type:unit" for each column in the first line, then the rows, all with tabs between; or
+ * CSV, which has the names alone. Everything dies at the first error, with its line. */
 #ifndef FORMAT_TAB_TEXT_H
 #define FORMAT_TAB_TEXT_H
 
@@ -7,12 +7,14 @@
 
 #include <stdio.h>
 
-/* tab_text_write - all rows of a table, of the n columns index[n]. Numbers are the shortest that are read back to the same bits. */
+/* tab_text_write - all rows of a table, of the n columns index[n]. Numbers are the shortest that are read back to the same
+ * bits. */
 void tab_text_write(FILE *f, struct tab *t, int n, const int *index, int csv);
 
 struct tab_text;
 
-/* tab_text_open - begin to read a text (path NULL or "-": standard input); not CSV. tab_text_columns - what its first line names, n. */
+/* tab_text_open - begin to read a text (path NULL or "-": standard input); not CSV. tab_text_columns - what its first line
+ * names, n. */
 struct tab_text *tab_text_open(const char *path);
 const struct tab_col *tab_text_columns(const struct tab_text *t, int *n);
 

@@ -13,8 +13,8 @@ void bake_density(const char *path, int longest, struct medium *m);
  * is 1; after bake_density. Returns the table's history. */
 char *bake_psd(const char *path, double concentration, struct medium *m);
 
-/* bake_particles - particles from a table of x, y, z (m) and radius (um), path NULL: standard input. bounded: the shape is given, and
- * none may lie outside; else it becomes the bounding box about the origin. Returns the table's history. */
+/* bake_particles - particles from a table of x, y, z (m) and radius (um), path NULL: standard input. bounded: the shape is
+ * given, and none may lie outside; else it becomes the bounding box about the origin. Returns the table's history. */
 char *bake_particles(const char *path, int bounded, struct medium *m);
 
 #endif

@@ -17,7 +17,8 @@ static int outside(const struct medium *m, const double *q)
 char *bake_particles(const char *path, int bounded, struct medium *m)
 {
 	struct tab *t = tab_open(path);
-	int x = tab_need(t, &column_position[0]), y = tab_need(t, &column_position[1]), z = tab_need(t, &column_position[2]), radius = tab_need(t, &column_radius);
+	int x = tab_need(t, &column_position[0]), y = tab_need(t, &column_position[1]), z = tab_need(t, &column_position[2]);
+	int radius = tab_need(t, &column_radius);
 	double row[TAB_COLS], low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY };
 	size_t room = 0;
 	while (tab_next(t, row)) {

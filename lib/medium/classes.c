@@ -12,7 +12,7 @@
 #include <string.h>
 
 #define KEY 1e-9               /* keys match within this, relative */
-#define INTERVAL (M_PI / 180)  /* longest interval between nodes: see phase_sample in the kernels */
+#define INTERVAL (M_PI / 180)  /* longest interval between nodes: sin is a cubic over it to the kernels (render/kern/phase.h) */
 
 static int same(double a, double b)
 {

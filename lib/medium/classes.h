@@ -9,9 +9,9 @@
  * Refuses c_ext <= 0 and c_sca > c_ext (1 + 1e-9). Dies. Returns the table's history. */
 char *classes_cross_sections(const char *path, struct medium *m);
 
-/* classes_phase_functions - read wavelength, [radius,] theta, p for every class and wavelength (without radius: one for all classes), normalise
- * each on its own grid, and build the common grids, the CDFs and the mixture by count x c_sca. count must be set. Refuses a phase
- * function off by more than 1 %. Dies. Returns the table's history. */
+/* classes_phase_functions - read wavelength, [radius,] theta, p for every class and wavelength (without radius: one for all
+ * classes), normalise each on its own grid, and build the common grids, the CDFs and the mixture by count x c_sca. count must
+ * be set. Refuses a phase function off by more than 1 %. Dies. Returns the table's history. */
 char *classes_phase_functions(const char *path, struct medium *m);
 
 /* classes_find - the class that a particle of this radius (um) belongs to: nearest in log radius and within half the gap to the

@@ -4,7 +4,8 @@
 
 #include "medium/medium.h"
 
-/* medium_check - the ranges of all values, and that indices lie within their arrays, whose sizes are right. Dies, with the name. */
+/* medium_check - the ranges of all values, and that indices lie within their arrays, whose sizes are right. Dies, with the
+ * name. */
 void medium_check(const char *name, const struct medium *m);
 
 #endif

@@ -42,7 +42,8 @@ static size_t cube_of(const struct medium *m, const float *q)
 static void condense(struct medium *m, int l)
 {
 	int32_t fine[3], coarse[3];
-	size_t classes = (size_t)m->n_classes, from = particle_counts_level(m->voxels, l, fine), to = particle_counts_level(m->voxels, l + 1, coarse);
+	size_t classes = (size_t)m->n_classes;
+	size_t from = particle_counts_level(m->voxels, l, fine), to = particle_counts_level(m->voxels, l + 1, coarse);
 	for (int32_t z = 0; z < fine[2]; z++)
 		for (int32_t y = 0; y < fine[1]; y++)
 			for (int32_t x = 0; x < fine[0]; x++) {

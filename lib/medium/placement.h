@@ -1,5 +1,5 @@
-/* placement - particles of a size distribution at random places in a box or a sphere, by a density or evenly: the same ones for a seed on
- * every machine. */
+/* placement - particles of a size distribution at random places in a box or a sphere, by a density or evenly: the same ones for
+ * a seed on every machine. */
 #ifndef MEDIUM_PLACEMENT_H
 #define MEDIUM_PLACEMENT_H
 
@@ -25,8 +25,8 @@ struct placed {
 	size_t class;
 };
 
-/* placement_new - sizes from a table with radius and weight (which may be closed then); density: a file of relative density in the box,
- * or NULL. Dies on bad input, and where there are more than PLACEMENT_MOST particles on average. */
+/* placement_new - sizes from a table with radius and weight (which may be closed then); density: a file of relative density in
+ * the box, or NULL. Dies on bad input, and where there are more than PLACEMENT_MOST particles on average. */
 struct placement *placement_new(const struct placement_request *r, struct tab *sizes, const char *density);
 
 /* placement_next - the next particle; 0 at the end. Dies where the density leaves almost no place. */

@@ -1,5 +1,5 @@
-/* angle_refinement - tables whose angles are chosen by the phase functions themselves, so that these may be taken as linear between
- * them. */
+/* angle_refinement - tables whose angles are chosen by the phase functions themselves, so that these may be taken as linear
+ * between them. */
 #ifndef TOOLKIT_ANGLE_REFINEMENT_H
 #define TOOLKIT_ANGLE_REFINEMENT_H
 
@@ -14,8 +14,8 @@ struct angle_refinement {
 	double *theta;                   /* [n], degrees */
 };
 
-/* angle_refinement_find - open w[nwaves] by a model for any angles and find their angles; the error of each phase function in L1 is at
- * most tolerance. 0, or -1 when memory ran out. */
+/* angle_refinement_find - open w[nwaves] by a model for any angles and find their angles; the error of each phase function in
+ * L1 is at most tolerance. 0, or -1 when memory ran out. */
 int angle_refinement_find(const struct phase_model *model, double tolerance, struct angle_refinement *a);
 
 /* angle_refinement_free - close the spheres and forget the angles. */

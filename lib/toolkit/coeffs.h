@@ -1,8 +1,8 @@
 /* coeffs - tables of the coefficients of partial waves, both directions.
  *
- * A table has columns wavelength, radius (or x), host_re, host_im, n, a_re, a_im, b_re, b_im, and others; a new size or wavelength
- * begins where n returns to 1. It does not say m: a particle that does not absorb is recognised by |a|^2 = Re a (mie_lossless), but in
- * a host that absorbs, where this makes no difference. Everything dies at the first error. */
+ * A table has columns wavelength, radius (or x), host_re, host_im, n, a_re, a_im, b_re, b_im, and others; a new size or
+ * wavelength begins where n returns to 1. It does not say m: a particle that does not absorb is recognised by |a|^2 = Re a
+ * (mie_lossless), but in a host that absorbs, where this makes no difference. Everything dies at the first error. */
 #ifndef TOOLKIT_COEFFS_H
 #define TOOLKIT_COEFFS_H
 

@@ -13,7 +13,8 @@ void phase_model_elements(double norm, int n, const double complex *s1, const do
 	}
 }
 
-int phase_model_values(const struct phase_model *model, struct phase_sphere *s, long n, const double *theta, size_t stride, double *value)
+int phase_model_values(const struct phase_model *model, struct phase_sphere *s, long n, const double *theta, size_t stride,
+                       double *value)
 {
 	long block = model->any_angles && n > BLOCK ? BLOCK : n;
 	double complex *s1 = malloc(2 * (size_t)block * sizeof *s1), *s2 = s1 + block;

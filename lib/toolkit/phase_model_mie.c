@@ -110,8 +110,8 @@ static int at(struct phase_sphere *known, int n, const double *theta, double com
 	if (!s->series)
 		return mie_amplitudes(s->n, w->a, w->b, n, theta, s1, s2);
 	mie_fast_amplitudes_at(s->series, n, theta, s1, s2);
-	/* What a series rounds off the forward peak is, where little is scattered backwards, most of all seen there: the few angles about
-	 * that axis are summed. */
+	/* What a series rounds off the forward peak is, where little is scattered backwards, most of all seen there: the few angles
+	 * about that axis are summed. */
 	double behind = 180 - BEHIND * (180 / M_PI) / s->n;
 	int failed = 0;
 	for (int i = 0, end; i < n && !failed; i = end) {

@@ -16,8 +16,10 @@ struct phase_options {
 
 /* Rows for the option table. */
 #define PHASE_OPTIONS(o) \
-	{ "--theta", OPT_REAL_STEPS, &(o).theta, 0, 180, "A[,B..]", "scattering angles in degrees, or an inclusive range FROM:TO:STEP", 0 }, \
-	{ "--angles", OPT_INT, &(o).angles, 2, 1e7, "N", "N equally spaced angles on [0, 180], instead of a grid refined at the peaks", 0 }, \
+	{ "--theta", OPT_REAL_STEPS, &(o).theta, 0, 180, "A[,B..]", \
+	  "scattering angles in degrees, or an inclusive range FROM:TO:STEP", 0 }, \
+	{ "--angles", OPT_INT, &(o).angles, 2, 1e7, "N", \
+	  "N equally spaced angles on [0, 180], instead of a grid refined at the peaks", 0 }, \
 	{ "--average", OPT_FLAG, &(o).average, 0, 0, NULL, "one phase function a wavelength, weighted by weight x c_sca", 0 }
 
 /* phase_table - read all of in, write the phase table: wavelength radius (or x) theta s1_re s1_im s2_re s2_im p and what is

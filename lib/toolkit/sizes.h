@@ -25,9 +25,11 @@ struct sizes_options {
 #define SIZES_OPTIONS(o) \
 	{ "--particle", OPT_TEXT, &(o).particle, 0, 0, "M", "refractive index (1.33, 1.5+0.1i) or material of the particle", 0 }, \
 	{ "--host", OPT_TEXT, &(o).host, 0, 0, "M", "the same of the medium around it", 0 }, \
-	{ "--wavelength", OPT_UM_STEPS, &(o).wavelength, 1e-4, 1e4, "L[,L..]", "vacuum wavelengths, or an inclusive range FROM:TO:STEP", 0 }, \
+	{ "--wavelength", OPT_UM_STEPS, &(o).wavelength, 1e-4, 1e4, "L[,L..]", \
+	  "vacuum wavelengths, or an inclusive range FROM:TO:STEP", 0 }, \
 	{ "--radius", OPT_UMS, &(o).radius, 1e-9, 1e9, "R[,R..]", "radii, or FROM:TO:COUNT log-spaced, instead of a table", 0 }, \
-	{ "--size-parameter", OPT_REALS, &(o).x, 0, 0, "X[,X..]", "size parameters instead of wavelengths and radii, or FROM:TO:COUNT", 0 }, \
+	{ "--size-parameter", OPT_REALS, &(o).x, 0, 0, "X[,X..]", \
+	  "size parameters instead of wavelengths and radii, or FROM:TO:COUNT", 0 }, \
 	{ "--threads", OPT_INT, &(o).threads, 1, 1024, "N", "threads", 1 }
 
 /* sizes_require - die where --particle, or what gives the wavelength, is missing, or options exclude each other. */
@@ -42,8 +44,8 @@ struct tab *sizes_input(const struct sizes_options *o, const char *operand);
 
 struct sizes;
 
-/* sizes_over - check the options and take the sizes from a table that sizes_input opened (NULL: from the options), which remains the
- * caller's; sizes_threads is done here too. */
+/* sizes_over - check the options and take the sizes from a table that sizes_input opened (NULL: from the options), which
+ * remains the caller's; sizes_threads is done here too. */
 struct sizes *sizes_over(const struct sizes_options *o, struct tab *table);
 
 /* sizes_by_x - whether sizes are given by --size-parameter. */

@@ -1,6 +1,6 @@
 /* spheres - the input of an optics tool: one (size, wavelength) after the other, with the columns of its table that are carried
- * through, and its waves where coefficients are read. What can do with either (xsect, mie-phase) need not know which. Everything dies
- * at the first error. */
+ * through, and its waves where coefficients are read. What can do with either (xsect, mie-phase) need not know which.
+ * Everything dies at the first error. */
 #ifndef TOOLKIT_SPHERES_H
 #define TOOLKIT_SPHERES_H
 
@@ -14,14 +14,14 @@ struct spheres;
 struct spheres *spheres_open(const struct sizes_options *o, const char *operand);
 struct spheres *spheres_open_sizes(const struct sizes_options *o, const char *operand);
 
-/* spheres_table - the table in use, NULL where the options give the sizes. spheres_coeffs - its name where coefficients are read, else
- * NULL. spheres_history - its cmd lines, "" without one. */
+/* spheres_table - the table in use, NULL where the options give the sizes. spheres_coeffs - its name where coefficients are
+ * read, else NULL. spheres_history - its cmd lines, "" without one. */
 struct tab *spheres_table(const struct spheres *s);
 const char *spheres_coeffs(const struct spheres *s);
 const char *spheres_history(const struct spheres *s);
 
-/* spheres_by_x - whether the key is x, not wavelength and radius. spheres_key_columns - the key's columns into cols; spheres_key - its
- * values into row. Return how many. */
+/* spheres_by_x - whether the key is x, not wavelength and radius. spheres_key_columns - the key's columns into cols;
+ * spheres_key - its values into row. Return how many. */
 int spheres_by_x(const struct spheres *s);
 int spheres_key_columns(const struct spheres *s, struct tab_col *cols);
 int spheres_key(const struct spheres *s, const struct size *size, double *row);
@@ -34,8 +34,8 @@ void spheres_carry(const struct spheres *s, const struct waves *w, double *row);
 /* spheres_next - the next waves; 0 at the end. To be freed by waves_free. */
 int spheres_next(struct spheres *s, struct waves *out);
 
-/* spheres_batch - up to SPHERES_BATCH next waves, fewer where x is large, so that their coefficients together stay bounded in memory;
- * returns how many, 0 at the end. */
+/* spheres_batch - up to SPHERES_BATCH next waves, fewer where x is large, so that their coefficients together stay bounded in
+ * memory; returns how many, 0 at the end. */
 #define SPHERES_BATCH 2048
 int spheres_batch(struct spheres *s, struct waves out[SPHERES_BATCH]);
 

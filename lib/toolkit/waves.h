@@ -17,7 +17,8 @@ struct waves {
  * different waves at once. */
 int waves_solve(struct waves *w);
 
-/* waves_efficiencies - of solved waves; *error, unless NULL, as of mie_efficiencies or, in a host that absorbs, mie_host_efficiencies.
+/* waves_efficiencies - of solved waves; *error, unless NULL, as of mie_efficiencies or, in a host that absorbs,
+ * mie_host_efficiencies.
  * waves_norm - the integral of (|S1|^2 + |S2|^2)/2 over the sphere, given Q_sca. */
 struct efficiencies waves_efficiencies(const struct waves *w, double *error);
 double waves_norm(const struct waves *w, double q_sca);
