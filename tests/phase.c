@@ -67,10 +67,10 @@ int main(void)
 		theta_f[i] = (float)theta[i];
 		p_f[i] = (float)p[i];
 	}
-	struct angles angles;
-	angles_make(&angles, 1, 1, range, theta_f, p_f, cdf);
+	struct phase_sampler sampler;
+	phase_sampler_make(&sampler, 1, 1, range, theta_f, p_f, cdf);
 	struct scene scene = { .n_waves = 1, .carried = 1, .n_groups = 1, .n_classes = 0, .only_class = 0 };
-	struct tables t = { .phase = angles.phase, .interval = angles.interval, .alias = angles.alias, .angle = angles.angle };
+	struct tables t = { .phase = sampler.phase, .interval = sampler.interval, .alias = sampler.alias, .angle = sampler.angle };
 	struct waves w = { 1, 0 };
 	double cosine = 0, cosine2 = 0, place = 0, place2 = 0, worst = 0, worst_value = 0;
 	struct random r = random_of(1, 2, 3);
@@ -129,6 +129,6 @@ int main(void)
 	ok(fabs(z_place) < 4.5, "places within the intervals: z %.2f", z_place);
 	ok(worst < 1e-6, "sine and cosine are of one angle: %.2g", worst);
 	ok(worst_value < 1, "p is that at the angle drawn: within %.2g of what rounding may do", worst_value);
-	angles_free(&angles);
+	phase_sampler_free(&sampler);
 	return 0;
 }

@@ -38,7 +38,7 @@ static double integral_above(const struct row *r, double cap)
 	return sum;
 }
 
-static double cap_of(const struct row *r)
+static double truncation_of(const struct row *r)
 {
 	double low = 0, high = 0, whole = integral_above(r, 0);
 	for (int i = 0; i < r->n; i++)
@@ -85,7 +85,7 @@ static int nodes(const struct medium *m, int class, const float *cap, float *the
 	return n;
 }
 
-void peak_make(struct peak *k, const struct medium *m, int class)
+void forward_peak_make(struct forward_peak *k, const struct medium *m, int class)
 {
 	size_t waves = (size_t)m->n_waves, old = m->n_nodes;
 	int high = class >= 0;
@@ -94,7 +94,7 @@ void peak_make(struct peak *k, const struct medium *m, int class)
 	for (size_t w = 0; w < waves && class >= 0; w++) {
 		struct row r = { m->node[2 * class + 1], m->theta + m->node[2 * class], m->p + (size_t)m->node[2 * class] * waves + w, waves };
 		double most = 0;
-		k->cap[w] = (float)cap_of(&r);
+		k->cap[w] = (float)truncation_of(&r);
 		for (int i = 0; i < r.n; i++)
 			most = fmax(most, r.p[(size_t)i * waves]);
 		high &= most * 4 * M_PI > HIGH;
@@ -132,7 +132,7 @@ void peak_make(struct peak *k, const struct medium *m, int class)
 	free(p);
 }
 
-void peak_free(struct peak *k)
+void forward_peak_free(struct forward_peak *k)
 {
 	free(k->cap);
 	free(k->range);

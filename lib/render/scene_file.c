@@ -189,7 +189,7 @@ static void light(const char *path, config_setting_t *g, struct scenefile *s)
 		if (config_setting_get_member(g, "radiance"))
 			strength(path, g, "radiance", rgb);
 		char *map = beside(path, name);
-		map_read(map, rgb, &s->map);
+		envmap_read(map, rgb, &s->map);
 		free(map);
 	} else if (sky) {
 		only(path, g, "type radiance file");

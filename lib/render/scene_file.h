@@ -26,7 +26,7 @@ struct scenefile {
 	int n_suns, n_quads;
 	struct sun sun[MAX_LIGHTS];
 	struct quad quad[MAX_LIGHTS];
-	struct map map;
+	struct envmap map;
 	char *history;             /* one line: the scene in canonical form, without file names */
 };
 

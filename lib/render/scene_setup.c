@@ -104,7 +104,7 @@ static void lights(struct job *j, const struct scenefile *f)
 			s->light[s->n_lights++] = l;
 	}
 	uint32 *cdf = NULL;
-	j->n_map_cdf = f->map.width ? map_cdf(&f->map, &cdf) : 0;
+	j->n_map_cdf = f->map.width ? envmap_cdf(&f->map, &cdf) : 0;
 	j->tables.map_cdf = (const int *)cdf;
 	if (j->n_map_cdf) {
 		s->map_width = f->map.width;
@@ -174,15 +174,15 @@ static void optics(struct job *j, const struct medium *m, int suns)
 		}
 	}
 	free(rgb);
-	struct peak peak;
-	peak_make(&peak, m, suns ? j->scene.only_class : -1);
-	angles_make(&j->angles, peak.n_classes, m->n_waves, peak.range, peak.theta, peak.p, peak.cdf);
+	struct forward_peak peak;
+	forward_peak_make(&peak, m, suns ? j->scene.only_class : -1);
+	phase_sampler_make(&j->phase_sampler, peak.n_classes, m->n_waves, peak.range, peak.theta, peak.p, peak.cdf);
 	j->scene.peak = (float)peak.share;
 	j->scene.detours = peak.share > 0 ? (float)(-1 / log(peak.share)) : 0;
 	float *cap = peak.cap;
 	peak.cap = NULL;
-	peak_free(&peak);
-	const struct angles *g = &j->angles;
+	forward_peak_free(&peak);
+	const struct phase_sampler *g = &j->phase_sampler;
 	j->tables = (struct tables){ .extinction = extinction, .disc = disc, .albedo = albedo, .cap = cap, .colour = colour, .phase = g->phase,
 		.interval = g->interval, .alias = g->alias, .angle = g->angle, .particle = m->particle, .first = (const int *)m->first };
 	j->n_extinction = waves;
@@ -320,7 +320,7 @@ void job_free(struct job *j)
 	free((void *)(size_t)j->tables.cap);
 	free((void *)(size_t)j->tables.colour);
 	free((void *)(size_t)j->tables.map_cdf);
-	angles_free(&j->angles);
+	phase_sampler_free(&j->phase_sampler);
 	bricks_free(&j->bricks);
 	free(j->film);
 }

@@ -17,7 +17,7 @@ struct job {
 	/* elements of each table, in the order of struct tables */
 	size_t n_extinction, n_disc, n_albedo, n_cap, n_colour, n_phase, n_interval, n_alias, n_angle, n_particle, n_first, n_brick, n_voxel, n_count,
 		n_map, n_map_cdf;
-	struct angles angles;      /* what is made here of the medium */
+	struct phase_sampler phase_sampler;      /* what is made here of the medium */
 	struct bricks bricks;
 	int64 *film;               /* [pixel][scene.film_sums], see kern/film.h */
 	int overflow;              /* a sum went beyond the film's limit */

@@ -57,7 +57,7 @@ FN uint64 film_add_square(GLOBAL int64 *sum, int64 v)
 /* Lanes of m whose value is too large, or no number: these become FILM_MOST. */
 FN mv film_clamp(mv m, fv *value)
 {
-	mv good = lt(size_of(*value), FV(FILM_MOST));
+	mv good = lt(fv_abs(*value), FV(FILM_MOST));
 	*value = SEL(good, *value, FV(FILM_MOST));
 	return m & NOT(good);
 }

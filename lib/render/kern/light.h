@@ -50,7 +50,7 @@ FN fv surface_distance(const struct scene *s, struct ray r, iv *which)
 }
 
 /* Density of drawing the direction along, which meets a quad at distance t, sr^-1; 0 behind it. */
-FN fv quad_density(const struct scene *s, const struct light *q, struct vec along, fv t)
+FN fv quad_pdf(const struct scene *s, const struct light *q, struct vec along, fv t)
 {
 	fv c = -dot3(load3(q->normal), along);
 	return SEL(lt(FV(0.f), c), t * (t * (q->density * s->pick)) / c, FV(0.f));
@@ -62,7 +62,7 @@ FN fv quad_density(const struct scene *s, const struct light *q, struct vec alon
 FN fv texel_angle(const struct scene *s, iv row)
 {
 	fv sn, cs;
-	sincos_of((to_float(ileast(row, s->map_height - 1 - row)) + 0.5f) * (PI / (float)s->map_height), &sn, &cs);
+	fv_sincos((to_float(iv_min(row, s->map_height - 1 - row)) + 0.5f) * (PI / (float)s->map_height), &sn, &cs);
 	return sn * s->map_angle;
 }
 
@@ -73,7 +73,7 @@ FN fv cdf_width(INTS cdf, mv m, iv i)
 }
 
 /* Density of drawing a direction in a texel, sr^-1. */
-FN fv map_density(const struct scene *s, const struct tables *t, mv m, iv row, iv column)
+FN fv envmap_pdf(const struct scene *s, const struct tables *t, mv m, iv row, iv column)
 {
 	iv columns = s->map_height + 1 + row * (s->map_width + 1);
 	fv share = cdf_width(t->map_cdf, m, row) * 0x1p-31f * (cdf_width(t->map_cdf, m, columns + column) * 0x1p-31f);
@@ -81,14 +81,14 @@ FN fv map_density(const struct scene *s, const struct tables *t, mv m, iv row, i
 }
 
 /* The texel in a direction: top row +y, centre column -z, columns turn towards +x. */
-FN void map_locate(const struct scene *s, struct vec d, iv *row, iv *column)
+FN void envmap_locate(const struct scene *s, struct vec d, iv *row, iv *column)
 {
-	fv polar = turn_of(root(d.x * d.x + d.z * d.z), d.y) / PI, azimuth = 0.5f + turn_of(d.x, -d.z) / (2.f * PI);
-	*row = to_int(least(polar * (float)s->map_height, FV((float)s->map_height - 1.f)));
-	*column = to_int(most(FV(0.f), least(azimuth * (float)s->map_width, FV((float)s->map_width - 1.f))));
+	fv polar = fv_atan2(fv_sqrt(d.x * d.x + d.z * d.z), d.y) / PI, azimuth = 0.5f + fv_atan2(d.x, -d.z) / (2.f * PI);
+	*row = to_int(fv_min(polar * (float)s->map_height, FV((float)s->map_height - 1.f)));
+	*column = to_int(fv_max(FV(0.f), fv_min(azimuth * (float)s->map_width, FV((float)s->map_width - 1.f))));
 }
 
-FN void map_value(const struct scene *s, const struct tables *t, mv m, iv row, iv column, fv *rgb)
+FN void envmap_value(const struct scene *s, const struct tables *t, mv m, iv row, iv column, fv *rgb)
 {
 	EACH(c, 3)
 		rgb[c] = gather(m, t->map, 3 * (row * s->map_width + column) + c);
@@ -107,12 +107,12 @@ FN iv cdf_draw(INTS cdf, mv m, iv from, int n, uv u, fv *place)
 	}
 	iv begin = igather(m, cdf, from + low);
 	fv width = cdf_width(cdf, m, from + low);
-	*place = least(FV(1.f), (to_float(signed_of(unsigned_of(target) - unsigned_of(begin))) + 0.5f) / most(width, FV(1.f)));
+	*place = fv_min(FV(1.f), (to_float(signed_of(unsigned_of(target) - unsigned_of(begin))) + 0.5f) / fv_max(width, FV(1.f)));
 	return low;
 }
 
 /* A direction of the map by its luminance: texel by texel exactly as tabulated, uniform in solid angle over one. */
-FN struct vec map_draw(const struct scene *s, const struct tables *t, mv m, uv u, uv v, iv *row, iv *column)
+FN struct vec envmap_draw(const struct scene *s, const struct tables *t, mv m, uv u, uv v, iv *row, iv *column)
 {
 	fv down, across, sn, cs, step = FV(PI / (float)s->map_height);
 	*row = cdf_draw(t->map_cdf, m, IV(0), s->map_height, u, &down);
@@ -120,18 +120,18 @@ FN struct vec map_draw(const struct scene *s, const struct tables *t, mv m, uv u
 	/* sin^2(theta / 2), linear in solid angle, from the nearer pole, where it resolves the smallest texel */
 	mv north = ilt(*row, IV(s->map_height / 2));
 	fv from = to_float(SEL(north, *row, s->map_height - 1 - *row));
-	sincos_of(0.5f * from * step, &sn, &cs);
+	fv_sincos(0.5f * from * step, &sn, &cs);
 	fv h0 = sn * sn;
-	sincos_of(0.5f * (from + 1.f) * step, &sn, &cs);
+	fv_sincos(0.5f * (from + 1.f) * step, &sn, &cs);
 	fv h = h0 + (sn * sn - h0) * SEL(north, down, 1.f - down);
-	fv y = 1.f - 2.f * h, out = 2.f * root(h * (1.f - h));
-	sincos_of(2.f * PI * least(FV(1.f), (to_float(*column) + across) / (float)s->map_width), &sn, &cs);
+	fv y = 1.f - 2.f * h, out = 2.f * fv_sqrt(h * (1.f - h));
+	fv_sincos(2.f * PI * fv_min(FV(1.f), (to_float(*column) + across) / (float)s->map_width), &sn, &cs);
 	return vec3(-out * sn, SEL(north, y, -y), out * cs);    /* the left edge is +z, a quarter turn from there -x */
 }
 
 /* ------------------------------------------------------------------ drawing one, meeting one */
 
-struct drawn {
+struct light_sample {
 	struct vec along, inverse;
 	fv t_end;                  /* where it shines from */
 	iv which;                  /* the surface that it is, or NONE */
@@ -142,10 +142,10 @@ struct drawn {
 
 /* Light i seen from the points of lanes m. */
 FN void light_draw(const struct scene *s, const struct tables *t, mv m, int i, struct vec point, const struct random *random,
-                   struct drawn *d)
+                   struct light_sample *d)
 {
 	const struct light *l = &s->light[i];
-	*d = (struct drawn){ load3(l->at), load3(l->inverse), FV(FAR), IV(NONE), FV(l->density * s->pick),
+	*d = (struct light_sample){ load3(l->at), load3(l->inverse), FV(FAR), IV(NONE), FV(l->density * s->pick),
 		{ FV(l->rgb[0]), FV(l->rgb[1]), FV(l->rgb[2]) }, m, l->kind == LIGHT_SUN ? m : NO_LANE, l->small ? m : NO_LANE };
 	if (l->kind == LIGHT_SUN && l->cap == 0.f)
 		return;
@@ -153,25 +153,25 @@ FN void light_draw(const struct scene *s, const struct tables *t, mv m, int i, s
 		fv x = draw(random, DRAW_LIGHT_1), y = draw(random, DRAW_LIGHT_2);
 		struct vec to = sub(add(d->along, add(scale(load3(l->edge[0]), x), scale(load3(l->edge[1]), y))), point);
 		fv t2 = dot3(to, to);
-		d->t_end = root(t2);
+		d->t_end = fv_sqrt(t2);
 		d->along = scale(to, 1.f / d->t_end);
 		d->which = IV(i);
-		d->density = quad_density(s, l, d->along, d->t_end);
+		d->density = quad_pdf(s, l, d->along, d->t_end);
 		d->shines &= lt(FV(1e-30f), t2) & lt(FV(0.f), d->density);
 	} else if (l->kind == LIGHT_MAP) {
 		iv row, column;
-		d->along = map_draw(s, t, m, draw_bits(random, DRAW_LIGHT_1), draw_bits(random, DRAW_LIGHT_2), &row, &column);
-		d->density = map_density(s, t, m, row, column);
-		map_value(s, t, m, row, column, d->rgb);
+		d->along = envmap_draw(s, t, m, draw_bits(random, DRAW_LIGHT_1), draw_bits(random, DRAW_LIGHT_2), &row, &column);
+		d->density = envmap_pdf(s, t, m, row, column);
+		envmap_value(s, t, m, row, column, d->rgb);
 	} else {                   /* uniform over the disc, in 1 - cos */
 		fv c = l->cap * draw(random, DRAW_LIGHT_1);
-		d->along = around(d->along, root(c * (2.f - c)), 1.f - c, 2.f * PI * draw(random, DRAW_LIGHT_2));
+		d->along = to_world(d->along, fv_sqrt(c * (2.f - c)), 1.f - c, 2.f * PI * draw(random, DRAW_LIGHT_2));
 	}
 	d->inverse = inverse3(d->along);
 }
 
 /* One of the lights that are drawn, all equally likely. */
-FN void some_light(const struct scene *s, const struct tables *t, mv m, struct vec point, const struct random *random, struct drawn *d)
+FN void light_choose(const struct scene *s, const struct tables *t, mv m, struct vec point, const struct random *random, struct light_sample *d)
 {
 	mv own = m;
 	iv which = IV(0);
@@ -184,7 +184,7 @@ FN void some_light(const struct scene *s, const struct tables *t, mv m, struct v
 		own = m & ieq(which, IV(i));
 		if (!any(own))
 			continue;
-		struct drawn other;
+		struct light_sample other;
 		light_draw(s, t, own, i, point, random, &other);
 		set3(own, &d->along, other.along);
 		set3(own, &d->inverse, other.inverse);
@@ -201,24 +201,24 @@ FN void some_light(const struct scene *s, const struct tables *t, mv m, struct v
 
 /* Where a surface at distance t stands before what was drawn. What lies on the light itself, as another quad at a common edge, does
  * not: hence the margin. */
-FN mv light_blocked(const struct drawn *d, iv surface, fv t)
+FN mv light_blocked(const struct light_sample *d, iv surface, fv t)
 {
 	return NOT(ieq(surface, IV(NONE))) & NOT(ieq(surface, d->which)) & lt(t, d->t_end * TIE);
 }
 
 /* The weight of a light met by a path whose direction has the density chance (0: from the camera, where none is drawn). */
-FN fv met(fv chance, fv density) { return SEL(lt(FV(0.f), chance), chance / (chance + density), FV(1.f)); }
+FN fv mis_weight(fv chance, fv density) { return SEL(lt(FV(0.f), chance), chance / (chance + density), FV(1.f)); }
 
 /* Radiance of quad i met at distance t. */
-FN void quad_seen(const struct scene *s, int i, struct ray r, fv t, fv chance, fv *rgb)
+FN void quad_radiance(const struct scene *s, int i, struct ray r, fv t, fv chance, fv *rgb)
 {
-	fv density = quad_density(s, &s->light[i], r.along, t), k = SEL(lt(FV(0.f), density), met(chance, density), FV(0.f));
+	fv density = quad_pdf(s, &s->light[i], r.along, t), k = SEL(lt(FV(0.f), density), mis_weight(chance, density), FV(0.f));
 	EACH(c, 3)
 		rgb[c] = s->light[i].rgb[c] * k;
 }
 
 /* Radiance of what lies behind everything: the environment, the map, suns with a disc; small ones apart. */
-FN void sky_seen(const struct scene *s, const struct tables *t, mv m, struct vec along, fv chance, fv *rgb, fv *suns)
+FN void sky_radiance(const struct scene *s, const struct tables *t, mv m, struct vec along, fv chance, fv *rgb, fv *suns)
 {
 	EACH(c, 3) {
 		rgb[c] = FV(s->environment[c]);
@@ -230,11 +230,11 @@ FN void sky_seen(const struct scene *s, const struct tables *t, mv m, struct vec
 		fv own[3] = { FV(l->rgb[0]), FV(l->rgb[1]), FV(l->rgb[2]) }, k;
 		if (l->kind == LIGHT_MAP) {
 			iv row, column;
-			map_locate(s, along, &row, &column);
-			map_value(s, t, m, row, column, own);
-			k = met(chance, map_density(s, t, m, row, column));
+			envmap_locate(s, along, &row, &column);
+			envmap_value(s, t, m, row, column, own);
+			k = mis_weight(chance, envmap_pdf(s, t, m, row, column));
 		} else if (l->kind == LIGHT_SUN && l->cap > 0.f) {
-			k = SEL(le(dot3(off, off), FV(2.f * l->cap)), met(chance, FV(l->density * s->pick)), FV(0.f));
+			k = SEL(le(dot3(off, off), FV(2.f * l->cap)), mis_weight(chance, FV(l->density * s->pick)), FV(0.f));
 		} else {
 			continue;
 		}

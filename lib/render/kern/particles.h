@@ -49,7 +49,7 @@ FN void gather_begin(const struct scene *s, struct gather *g, mv m, struct ray r
 	fv t0, t1;
 	clip_box(r, load3(s->grid_centre), load3(s->grid_reached), &t0, &t1);
 	struct vec entry = add(r.from, scale(r.along, t0));
-	t1 = least(t1, t_end) - t0;
+	t1 = fv_min(t1, t_end) - t0;
 	set3(m, &g->entry, entry);
 	set3(m, &g->along, r.along);
 	SET(m, g->skip, r.skip);
@@ -66,15 +66,15 @@ FN void gather_begin(const struct scene *s, struct gather *g, mv m, struct ray r
 	const fv cell[3] = { FV(s->cell[0]), FV(s->cell[1]), FV(s->cell[2]) };
 	const fv cells_per_m[3] = { FV(1.f / s->cell[0]), FV(1.f / s->cell[1]), FV(1.f / s->cell[2]) };
 	const iv cells[3] = { IV(s->cells[0]), IV(s->cells[1]), IV(s->cells[2]) };
-	fv x = size_of(d[0]), y = size_of(d[1]), z = size_of(d[2]);
+	fv x = fv_abs(d[0]), y = fv_abs(d[1]), z = fv_abs(d[2]);
 	SET_TRUTH(m, g->a_is_x, lt(y, x) & lt(z, x));
 	SET_TRUTH(m, g->a_is_y, NOT(lt(y, x)) & lt(z, y));
 	fv inv[3] = { r.inverse.x, r.inverse.y, r.inverse.z }, d_a = BY_A(g, d), inverse_a = BY_A(g, inv), slope_b = BY_B(g, d) * inverse_a, slope_c = BY_C(g, d) * inverse_a;
 	fv cell_a = BY_A(g, cell), inverse_b = BY_B(g, cells_per_m), inverse_c = BY_C(g, cells_per_m);
-	fv wide_a = s->reach * root(most(FV(0.f), 1.f - d_a * d_a)), origin = BY_A(g, low) - BY_A(g, at);
+	fv wide_a = s->reach * fv_sqrt(fv_max(FV(0.f), 1.f - d_a * d_a)), origin = BY_A(g, low) - BY_A(g, at);
 	fv start = -wide_a - origin, end = d_a * t1, inverse_cell = BY_A(g, cells_per_m);
-	fv from = (least(end, FV(0.f)) + start) * inverse_cell, to = (most(end, FV(0.f)) + wide_a - origin) * inverse_cell;
-	iv n = BY_A(g, cells), first = to_int(least(most(from, FV(0.f)), to_float(n))), last = to_int(most(least(to, to_float(n - 1)), FV(-1.f)));
+	fv from = (fv_min(end, FV(0.f)) + start) * inverse_cell, to = (fv_max(end, FV(0.f)) + wide_a - origin) * inverse_cell;
+	iv n = BY_A(g, cells), first = to_int(fv_min(fv_max(from, FV(0.f)), to_float(n))), last = to_int(fv_max(fv_min(to, to_float(n - 1)), FV(-1.f)));
 	mv up = lt(FV(0.f), d_a);
 	SET(m, g->layer, SEL(up, first, last));
 	SET(m, g->left, last - first + 1);
@@ -86,12 +86,12 @@ FN void gather_begin(const struct scene *s, struct gather *g, mv m, struct ray r
 	SET(m, g->low_b, (BY_B(g, at) - BY_B(g, low)) * inverse_b);
 	SET(m, g->low_c, (BY_C(g, at) - BY_C(g, low)) * inverse_c);
 	/* how far a centre can be from the ray along an axis, in a plane across axis a; and along a */
-	SET(m, g->wide_b, s->reach * root(1.f + slope_b * slope_b) * inverse_b);
-	SET(m, g->wide_c, s->reach * root(1.f + slope_c * slope_c) * inverse_c);
+	SET(m, g->wide_b, s->reach * fv_sqrt(1.f + slope_b * slope_b) * inverse_b);
+	SET(m, g->wide_c, s->reach * fv_sqrt(1.f + slope_c * slope_c) * inverse_c);
 	SET(m, g->inverse_cell_b, inverse_b);
 	SET(m, g->inverse_cell_c, inverse_c);
 	SET(m, g->inverse_a, inverse_a);
-	SET(m, g->back, wide_a * size_of(inverse_a));
+	SET(m, g->back, wide_a * fv_abs(inverse_a));
 	SET(m, g->y, IV(0));
 	SET(m, g->y1, IV(0));
 	SET(m, g->z, IV(0));
@@ -104,9 +104,9 @@ FN void gather_begin(const struct scene *s, struct gather *g, mv m, struct ray r
 /* The indices of cells [*from, *to] of n that the range low..low + wide in cells touches. */
 FN mv cells_touched(fv a, fv b, fv wide, iv n, iv *from, iv *to)
 {
-	fv low = least(a, b) - wide, high = most(a, b) + wide, end = to_float(n);
-	*from = to_int(least(most(low, FV(0.f)), end));
-	*to = to_int(most(least(high, end - 1.f), FV(-1.f)));
+	fv low = fv_min(a, b) - wide, high = fv_max(a, b) + wide, end = to_float(n);
+	*from = to_int(fv_min(fv_max(low, FV(0.f)), end));
+	*to = to_int(fv_max(fv_min(high, end - 1.f), FV(-1.f)));
 	return le(FV(0.f), high) & lt(low, end);
 }
 
@@ -124,8 +124,8 @@ FN void gather_row(const struct scene *s, const struct tables *t, struct gather 
 		/* what this layer and further ones can still change */
 		fv furthest = g->depth[0], brightest = g->through[0];
 		EACH_WAVE(j) {
-			furthest = most(furthest, g->depth[j]);
-			brightest = most(brightest, g->through[j]);
+			furthest = fv_max(furthest, g->depth[j]);
+			brightest = fv_max(brightest, g->through[j]);
 		}
 		mv done = le(furthest, nearest * g->inverse_a - g->back) | le(brightest, FV(0.f)) | ilt(g->left, IV(1))
 		    | (NOT(g->flight) & lt(furthest, g->limit));
@@ -156,10 +156,10 @@ FN void gather_row(const struct scene *s, const struct tables *t, struct gather 
 }
 
 /* Probability that a particle whose disc is C / pi is met by a fat ray that holds it. */
-FN fv meeting(const struct scene *s, fv disc)
+FN fv hit_probability(const struct scene *s, fv disc)
 {
 	fv share = disc * (PI / s->fat);
-	return s->attenuation == ATTENUATION_EXPONENTIAL ? 1.f - expneg(share) : least(share, FV(1.f));
+	return s->attenuation == ATTENUATION_EXPONENTIAL ? 1.f - expneg(share) : fv_min(share, FV(1.f));
 }
 
 /* A number in [0, 1) of a particle and a vertex; for all wavelengths the same, so that they meet the same particles. */
@@ -194,7 +194,7 @@ FN void gather_particle(const struct scene *s, const struct tables *t, struct ga
 		if (TRANSPORT == TRANSPORT_EXPLICIT) {
 			met &= lt(d2, disc);
 		} else {
-			fv p = meeting(s, disc);
+			fv p = hit_probability(s, disc);
 			SET(m & NOT(g->flight), g->through[j], g->through[j] * (1.f - p));
 			met &= g->flight & lt(toss, p);
 		}

@@ -187,12 +187,12 @@ FN void path_fly(const struct scene *s, const struct tables *t, struct path *p, 
 FN void see_end(const struct scene *s, const struct tables *t, struct path *p, mv m)
 {
 	fv rgb[3], suns[3];
-	sky_seen(s, t, m, p->ray.along, p->chance, rgb, suns);
+	sky_radiance(s, t, m, p->ray.along, p->chance, rgb, suns);
 	for (int i = 0; i < s->n_lights; i++) {
 		mv own = m & ieq(p->surface, IV(i));
 		if (any(own)) {
 			fv quad[3];
-			quad_seen(s, i, p->ray, p->t_end, p->chance, quad);
+			quad_radiance(s, i, p->ray, p->t_end, p->chance, quad);
 			EACH(c, 3) {
 				SET(own, rgb[c], quad[c]);
 				SET(own, suns[c], FV(0.f));
@@ -226,7 +226,7 @@ FN struct vec detour_direction(const struct scene *s, const struct tables *t, st
 		fv sn, cs, value[CARRIED];
 		phase_draw(s, t, m, PEAK_CLASS, IV(0), p->waves, p->hero, draw_bits(&r, DRAW_ANGLE), draw_bits(&r, DRAW_PLACE), &sn, &cs, value);
 		take_event(s, p->waves, density, m, value);
-		set3(m, &sun, around(sun, sn, cs, 2.f * PI * draw(&r, DRAW_AZIMUTH)));
+		set3(m, &sun, to_world(sun, sn, cs, 2.f * PI * draw(&r, DRAW_AZIMUTH)));
 	}
 	return sun;
 }
@@ -276,8 +276,8 @@ FN void detour_arrive(const struct scene *s, const struct tables *t, struct path
 /* Next-event estimation at vertices m, before the march to the light is known: lit, lamp, and that march. */
 FN void path_light(const struct scene *s, const struct tables *t, struct path *p, mv m)
 {
-	struct drawn d;
-	some_light(s, t, m, p->point, &p->random, &d);
+	struct light_sample d;
+	light_choose(s, t, m, p->point, &p->random, &d);
 	mv ground = ieq(p->class, IV(NONE)), sunny = PEAK ? d.shines & d.small & NOT(ground) : NO_LANE;
 	struct vec along = d.along, inverse = d.inverse;
 	fv value[CARRIED], by_detour[CARRIED], chance = FV(0.f);
@@ -303,7 +303,7 @@ FN void path_light(const struct scene *s, const struct tables *t, struct path *p
 	else
 		phase_value(s, t, d.shines & NOT(ground), p->class, angle_between(p->ray.along, along), p->waves, value);
 	if (HAS_GROUND) {       /* on the side that the path comes from */
-		fv cosine = most(FV(0.f), SEL(lt(p->ray.along.y, FV(0.f)), along.y, -along.y));
+		fv cosine = fv_max(FV(0.f), SEL(lt(p->ray.along.y, FV(0.f)), along.y, -along.y));
 		EACH_WAVE(j)
 			SET(ground, value[j], cosine / PI);
 		d.shines &= NOT(ground) | lt(FV(0.f), cosine);
@@ -327,22 +327,22 @@ FN void path_light(const struct scene *s, const struct tables *t, struct path *p
 	EACH_WAVE(j) {
 		fv lit = value[j] * k, density = DENSITY(p, j);
 		if (PEAK) {
-			fv low = least(value[j], of_wave(s, t->cap, 0, m, p->waves, j));
+			fv low = fv_min(value[j], of_wave(s, t->cap, 0, m, p->waves, j));
 			fv high = SEL(straight, (value[j] - low) * p->peaked[j] * k, FV(0.f));
 			lit = SEL(sunny, (low * alone + high) * (1.f / (1.f - s->peak)), lit);
 			density = by_detour[j];
 			SET(m, p->by_detour[j], density);
 		}
 		PUT(m, p->lit[j], SEL(d.shines, lit, FV(0.f)));
-		scattered = most(scattered, lit * density / alone);
+		scattered = fv_max(scattered, lit * density / alone);
 	}
 	for (int i = 0; i < CHANNELS; i++)
 		PUT(m, p->lamp[i], d.rgb[i]);
 	if (MARCHES || PEAK) {     /* a march to a sun is long: where less is scattered than evenly, it is made as seldom, and counts the more */
-		fv q = SEL(d.sun & NOT(ground), least(FV(1.f), scattered * (1.f / ISOTROPIC)), FV(1.f));
+		fv q = SEL(d.sun & NOT(ground), fv_min(FV(1.f), scattered * (1.f / ISOTROPIC)), FV(1.f));
 		d.shines &= lt(draw(&p->random, DRAW_SHADOWED), q);
 		EACH_WAVE(j)
-			SET(m, p->lit[j], SEL(d.shines, p->lit[j] * (1.f / most(q, FV(1e-20f))), FV(0.f)));
+			SET(m, p->lit[j], SEL(d.shines, p->lit[j] * (1.f / fv_max(q, FV(1e-20f))), FV(0.f)));
 	}
 	detour_on(s, t, p, d.shines, r, SEL(straight, d.t_end, t_end));
 }
@@ -429,7 +429,7 @@ FN mv survives(const struct scene *s, struct path *p, mv m)
 {
 	fv throughput = FV(0.f);
 	EACH_WAVE(j)
-		throughput = most(throughput, p->weight[j] * DENSITY(p, j));
+		throughput = fv_max(throughput, p->weight[j] * DENSITY(p, j));
 	fv q = 4.f * (float)s->branches * throughput;
 	mv doubtful = m & lt(q, FV(1.f));
 	if (!any(doubtful))
@@ -462,7 +462,7 @@ FN mv path_depart(const struct scene *s, const struct tables *t, struct path *p,
 	if (ALL_ISOTROPIC) {
 		fv u = draw(&p->random, DRAW_COSINE);
 		cs = 1.f - 2.f * u;
-		sn = 2.f * root(u * (1.f - u));
+		sn = 2.f * fv_sqrt(u * (1.f - u));
 		EACH_WAVE(j)
 			value[j] = FV(ISOTROPIC);
 	} else {
@@ -472,22 +472,22 @@ FN mv path_depart(const struct scene *s, const struct tables *t, struct path *p,
 	fv chance = take_event(s, p->waves, p->density, hit, value);
 	if (PEAK)
 		EACH_WAVE(j) {
-			fv high = most(FV(0.f), value[j] - of_wave(s, t->cap, 0, m, p->waves, j));
+			fv high = fv_max(FV(0.f), value[j] - of_wave(s, t->cap, 0, m, p->waves, j));
 			SET(on, p->peaked[j], SEL(ground, FV(1.f), SEL(hit & lt(FV(0.f), high), p->peaked[j] * high / value[j], FV(0.f))));
 		}
 	if (HAS_GROUND) {       /* cosine-distributed */
 		fv u = draw(&p->random, DRAW_COSINE);
-		SET(ground, sn, root(u));
-		SET(ground, cs, root(1.f - u));
+		SET(ground, sn, fv_sqrt(u));
+		SET(ground, cs, fv_sqrt(1.f - u));
 		SET(ground, chance, cs / PI);
 		set3(ground, &axis, vec3(FV(0.f), SEL(lt(p->ray.along.y, FV(0.f)), FV(1.f), FV(-1.f)), FV(0.f)));
 	}
 	if (ALL_ISOTROPIC && !HAS_GROUND) {    /* about any axis */
 		fv x, y;
-		sincos_of(azimuth, &y, &x);
+		fv_sincos(azimuth, &y, &x);
 		along = vec3(sn * x, sn * y, cs);
 	} else {
-		along = around(axis, sn, cs, azimuth);
+		along = to_world(axis, sn, cs, azimuth);
 	}
 	PUT(on, p->chance, chance);
 	PUT3(on, p->ray.along, along);

@@ -55,10 +55,10 @@ FN void interval_load(const struct scene *s, const struct tables *t, mv m, iv i,
 FN void phase_value(const struct scene *s, const struct tables *t, mv m, iv class, fv theta, struct waves w, fv *value)
 {
 	fv place = theta * ((float)ANGLE_STEPS / PI);
-	iv step = ileast(to_int(place), IV(ANGLE_STEPS - 1)), row = phase_row(t, m, s->only_class, class, PHASE_STEP) + 2 * step;
+	iv step = iv_min(to_int(place), IV(ANGLE_STEPS - 1)), row = phase_row(t, m, s->only_class, class, PHASE_STEP) + 2 * step;
 	iv parts[2], at[2];        /* the first part and their number; the interval where a part begins, and where the next one does */
 	igather2(m, t->angle, row, parts);
-	iv part = ileast(to_int((place - to_float(step)) * to_float(parts[1])), parts[1] - 1);
+	iv part = iv_min(to_int((place - to_float(step)) * to_float(parts[1])), parts[1] - 1);
 	igather2(m, t->angle, parts[0] + 2 * part, at);
 	at[0] += SEL(le(bits_float(unsigned_of(at[1])), theta), IV(1), IV(0));
 	struct interval i;
@@ -69,7 +69,7 @@ FN void phase_value(const struct scene *s, const struct tables *t, mv m, iv clas
 #else
 	interval_load(s, t, m, at[0], w, &i);
 #endif
-	fv along = least(i.width, most(FV(0.f), theta - i.theta));
+	fv along = fv_min(i.width, fv_max(FV(0.f), theta - i.theta));
 	EACH_WAVE(j)
 		value[j] = i.p[j] + i.slope[j] * along;
 }

@@ -48,7 +48,7 @@ FN fv of_wave(const struct scene *s, FLOATS table, int from, mv m, struct waves 
 	return (void)s, (void)w, (void)m, FV(float_at(table, from + j));
 }
 #else
-FN iv wave_of(const struct scene *s, struct waves w, int j) { return ileast(w.first + s->n_groups * j, IV(s->n_waves - 1)); }
+FN iv wave_of(const struct scene *s, struct waves w, int j) { return iv_min(w.first + s->n_groups * j, IV(s->n_waves - 1)); }
 FN fv of_wave(const struct scene *s, FLOATS table, int from, mv m, struct waves w, int j)
 {
 	return gather(m, table, from + wave_of(s, w, j));
@@ -91,13 +91,13 @@ struct ray {
 	iv skip;                   /* particle that it starts from, or NONE */
 };
 
-FN fv off_zero(fv x, float least_of) { return SEL(lt(x, FV(0.f)), least(x, FV(-least_of)), most(x, FV(least_of))); }
-FN fv inverse(fv x) { return 1.f / off_zero(x, 1e-20f); }
+FN fv away_from_zero(fv x, float least_of) { return SEL(lt(x, FV(0.f)), fv_min(x, FV(-least_of)), fv_max(x, FV(least_of))); }
+FN fv inverse(fv x) { return 1.f / away_from_zero(x, 1e-20f); }
 
 /* 1 / x, 1 / y, 1 / z of a direction by one division; no less than 1e-12 in size is taken. */
 FN struct vec inverse3(struct vec v)
 {
-	fv x = off_zero(v.x, 1e-12f), y = off_zero(v.y, 1e-12f), z = off_zero(v.z, 1e-12f), xy = x * y, all = 1.f / (xy * z), k = all * z;
+	fv x = away_from_zero(v.x, 1e-12f), y = away_from_zero(v.y, 1e-12f), z = away_from_zero(v.z, 1e-12f), xy = x * y, all = 1.f / (xy * z), k = all * z;
 	return vec3(y * k, x * k, xy * all);
 }
 
@@ -106,9 +106,9 @@ FN void clip_box(struct ray r, struct vec centre, struct vec half_size, fv *t0, 
 {
 	struct vec i = r.inverse, from = sub(r.from, centre);
 	fv x = from.x * i.x, y = from.y * i.y, z = from.z * i.z;
-	fv u = half_size.x * size_of(i.x), v = half_size.y * size_of(i.y), w = half_size.z * size_of(i.z);
-	*t0 = most(FV(0.f), most(-u - x, most(-v - y, -w - z)));
-	*t1 = least(u - x, least(v - y, w - z));
+	fv u = half_size.x * fv_abs(i.x), v = half_size.y * fv_abs(i.y), w = half_size.z * fv_abs(i.z);
+	*t0 = fv_max(FV(0.f), fv_max(-u - x, fv_max(-v - y, -w - z)));
+	*t1 = fv_min(u - x, fv_min(v - y, w - z));
 }
 
 FN void clip_sphere(struct ray r, float radius, fv *t0, fv *t1)
@@ -116,8 +116,8 @@ FN void clip_sphere(struct ray r, float radius, fv *t0, fv *t1)
 	/* The nearest point of the ray to the centre first: the half chord then has no cancellation. */
 	fv middle = -dot3(r.from, r.along);
 	struct vec nearest = add(r.from, scale(r.along, middle));
-	fv h2 = radius * radius - dot3(nearest, nearest), h = root(most(h2, FV(0.f)));
-	*t0 = most(FV(0.f), middle - h);
+	fv h2 = radius * radius - dot3(nearest, nearest), h = fv_sqrt(fv_max(h2, FV(0.f)));
+	*t0 = fv_max(FV(0.f), middle - h);
 	*t1 = SEL(lt(FV(0.f), h2), middle + h, FV(0.f));
 }
 

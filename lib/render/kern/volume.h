@@ -52,7 +52,7 @@ FN void march_begin(const struct scene *s, const struct tables *t, struct march 
 		if (!COUNTED) {     /* in units of the integral of the density */
 			fv own = of_hero(s, t->extinction, m, w, hero), thinnest = own;
 			EACH_WAVE(j)
-				thinnest = least(thinnest, of_wave(s, t->extinction, 0, m, w, j));
+				thinnest = fv_min(thinnest, of_wave(s, t->extinction, 0, m, w, j));
 			own = SEL(flight, own, thinnest);
 			target = SEL(lt(FV(0.f), own), target / own, FV(FAR));
 		}
@@ -63,7 +63,7 @@ FN void march_begin(const struct scene *s, const struct tables *t, struct march 
 		PUT3(m, g->bulk.entry, add(r.from, scale(r.along, t0)));
 		PUT3(m, g->bulk.along, r.along);
 		PUT(m, g->bulk.t0, t0);
-		PUT(m, g->bulk.length, most(least(t1, t_end) - t0, FV(0.f)));
+		PUT(m, g->bulk.length, fv_max(fv_min(t1, t_end) - t0, FV(0.f)));
 	}
 }
 
@@ -86,9 +86,9 @@ FN void shadow_end(const struct scene *s, const struct tables *t, const struct m
 		fv thinnest = FV(FAR);
 		EACH_WAVE(j) {
 			out[j] = COUNTED ? g->passage.depth[j] : of_wave(s, t->extinction, 0, m, w, j) * g->passage.depth[0];
-			thinnest = least(thinnest, out[j]);
+			thinnest = fv_min(thinnest, out[j]);
 		}
-		fv sure = most(FV(0.f), thinnest - SHADOW_DEPTH);    /* e^-sure was the chance to come through */
+		fv sure = fv_max(FV(0.f), thinnest - SHADOW_DEPTH);    /* e^-sure was the chance to come through */
 		EACH_WAVE(j)
 			out[j] = SEL(g->passage.reached, FV(0.f), expneg(out[j] - sure));
 	} else {

@@ -39,7 +39,7 @@ FN void passage_begin(const struct scene *s, struct passage *g, mv m, struct ray
 {
 	fv t0, t1;
 	clip_medium(s, r, &t0, &t1);
-	t1 = least(t1, t_end) - t0;
+	t1 = fv_min(t1, t_end) - t0;
 	struct vec entry = add(r.from, scale(r.along, t0));
 	const fv at[3] = { entry.x, entry.y, entry.z }, d[3] = { r.along.x, r.along.y, r.along.z };
 	const fv inverse[3] = { r.inverse.x, r.inverse.y, r.inverse.z };
@@ -51,7 +51,7 @@ FN void passage_begin(const struct scene *s, struct passage *g, mv m, struct ray
 		SET(m, g->d[a], d[a] * s->voxels_per_m[a]);
 		SET(m, g->inverse[a], inverse[a] * s->voxel[a]);
 		SET(m, g->up[a], SEL(lt(FV(0.f), inverse[a]), FV(1.f), FV(0.f)));
-		SET(m, g->cell[a], whole(least(most(place, FV((float)BRICK)), FV((float)(BRICK + s->voxels[a] - 1)))));
+		SET(m, g->cell[a], fv_trunc(fv_min(fv_max(place, FV((float)BRICK)), FV((float)(BRICK + s->voxels[a] - 1)))));
 	}
 	SET(m, g->t0, t0);
 	SET(m, g->t, FV(0.f));
@@ -114,7 +114,7 @@ FN void passage_on(const struct scene *s, const struct tables *t, struct passage
 		wall[a] = low[a] + g->up[a] * many;
 		leave[a] = (wall[a] - g->at[a]) * g->inverse[a];
 	}
-	fv out = least(leave[0], least(leave[1], leave[2])), span = most(FV(0.f), least(out, g->t1) - g->t);
+	fv out = fv_min(leave[0], fv_min(leave[1], leave[2])), span = fv_max(FV(0.f), fv_min(out, g->t1) - g->t);
 	if (COUNTED) {
 		fv here[CARRIED], own = FV(FAR), own_here = FV(FAR);
 		iv at = (brick * BRICK_CELLS + ((i[2] & 3) * BRICK + (i[1] & 3)) * BRICK + (i[0] & 3)) * s->n_waves;
@@ -126,7 +126,7 @@ FN void passage_on(const struct scene *s, const struct tables *t, struct passage
 		}
 		mv hit = full & le(g->target, own + own_here) & lt(FV(0.f), own_here);
 		if (any(hit))
-			span = SEL(hit, least(span, (g->target - own) * span / own_here), span);
+			span = SEL(hit, fv_min(span, (g->target - own) * span / own_here), span);
 		EACH_WAVE(j)
 			SET(full, g->depth[j], g->depth[j] + here[j] * span);
 		SET(hit, g->t, g->t + span);
@@ -149,10 +149,10 @@ FN void passage_on(const struct scene *s, const struct tables *t, struct passage
 	EACH(a, 3) {
 		mv across = le(leave[a], out);
 		if (any(empty))        /* along the other axes the ray has moved on, too */
-			SET(m & empty, g->cell[a], most(low[a], least(low[a] + (many - 1.f), whole(g->at[a] + g->d[a] * out))));
+			SET(m & empty, g->cell[a], fv_max(low[a], fv_min(low[a] + (many - 1.f), fv_trunc(g->at[a] + g->d[a] * out))));
 		SET(m & across, g->cell[a], wall[a] + (g->up[a] - 1.f));
 	}
-	SET(m, g->t, most(g->t, out));
+	SET(m, g->t, fv_max(g->t, out));
 	g->going &= lt(g->t, g->t1);
 }
 
@@ -167,11 +167,11 @@ FN fv passage_end(const struct scene *s, const struct tables *t, struct passage 
 	indices(g, i);
 	corners(t, m, brick_of(s, t, m, i), i, p);
 	EACH(k, 4)    /* four values fix the cubic, which is not negative */
-		v[k] = most(FV(0.f), density_along(g, p, g->t + span * ((float)k * 0.333333333f)));
+		v[k] = fv_max(FV(0.f), density_along(g, p, g->t + span * ((float)k * 0.333333333f)));
 	fv all = span * 0.125f * (v[0] + 3.f * (v[1] + v[2]) + v[3]);
 	fv q[5] = { v[0], -5.5f * v[0] + 9.f * v[1] - 4.5f * v[2] + v[3], 9.f * v[0] - 22.5f * v[1] + 18.f * v[2] - 4.5f * v[3],
 		-4.5f * v[0] + 13.5f * v[1] - 13.5f * v[2] + 4.5f * v[3], FV(0.f) };
-	fv share = SEL(lt(FV(0.f), all), least(FV(1.f), (g->target - g->depth[0]) / all), FV(0.f));
+	fv share = SEL(lt(FV(0.f), all), fv_min(FV(1.f), (g->target - g->depth[0]) / all), FV(0.f));
 	SET(m, g->t, g->t + span * invert_density(q, share, 4));
 	SET(m, g->depth[0], g->target);
 	return g->t;
