@@ -1,4 +1,4 @@
-/* forward_peak - a phase function divided at a cap: what is above is the peak, for next-event estimation; kern/path.h has its use. */
+/* forward_peak - a phase function divided at a truncation: what is above is the peak; kern/forward_peak.h has its use. */
 #ifndef RENDER_FORWARD_PEAK_H
 #define RENDER_FORWARD_PEAK_H
 
@@ -7,7 +7,7 @@
 /* The phase functions of a medium, as struct medium has them, and the peak of one of them as a further class. */
 struct forward_peak {
 	double share;              /* of its scattering, the same at all wavelengths; 0 where it has no high peak: there is then no class */
-	float *cap;                /* [wave] sr^-1 */
+	float *truncation;         /* [wave] sr^-1 */
 	int n_classes;
 	int32_t *range;            /* [class][2] */
 	float *theta, *p;          /* [node], [node][wave]; those of the peak are not normalised */
