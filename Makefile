@@ -20,8 +20,9 @@ LIBS = -lOpenEXRCore -lpng -lz -lconfig -lOpenCL -lm
 ASAN = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 EXR_CFLAGS = $(shell pkg-config --cflags OpenEXR)    # asked for when used: make deps may have just installed it
 
+KINDS = unit cli physics     # of tests
 TOOLS = $(patsubst tools/%.c,%,$(wildcard tools/*.c))
-CHECKS = $(patsubst tests/%.c,%,$(wildcard tests/*.c))
+CHECKS = $(patsubst tests/%.c,%,$(wildcard $(KINDS:%=tests/%/*.c)))
 GENERATED = materials kernels
 OBJECTS = $(patsubst lib/%.c,obj/%.o,$(filter-out lib/render/kernels_c.c $(LOOPS),$(wildcard lib/*/*.c lib/*/*/*.c))) \
 	$(GENERATED:%=obj/gen/%.o) $(KERNEL_OBJECTS) $(LOOP_OBJECTS)
@@ -54,12 +55,13 @@ DOUBLES_v3 = -DLANES=4 -march=x86-64-v3
 DOUBLES_v4 = -DLANES=8 -march=x86-64-v4 -mprefer-vector-width=512
 FLAGS_mie_lanes = -funroll-loops
 FLAGS_goa_lanes = -O3 -fno-trapping-math -fcx-limited-range -fno-tree-slp-vectorize
+FLAGS_goa_plus_lanes = $(FLAGS_goa_lanes)
 FLAGS_legendre_series_lanes = -O3
 LOOP_OBJECTS = $(foreach loop,$(LOOPS:lib/%.c=%),$(BUILT:%=obj/$(loop)/%.o))
 MAN = $(wildcard man/*.[1-9])
 
 # As many jobs as there are cores, unless told otherwise; a line a file, or with V=1 its command.
-ifeq ($(filter -j%,$(MAKEFLAGS)),)
+ifeq ($(MAKELEVEL),0)
 MAKEFLAGS += -j$(shell nproc 2>/dev/null || echo 2)
 endif
 say = $(if $(V),,@echo '  $(1)';)
@@ -95,7 +97,7 @@ $(1)/bin/%: tools/%.c $(1)/libmotes.a
 	$$(call say,LD $$@)$$(CC) $$(OWN_CFLAGS) $$(EXR_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -MF $$@.d $$(OWN_LDFLAGS) $$(LDFLAGS) -o $$@ $$< $(1)/libmotes.a $$(LIBS)
 $(1)/tests/%: tests/%.c $(1)/libmotes.a
 	@mkdir -p $$(@D)
-	$$(call say,LD $$@)$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(2) -MMD -MP -MF $$@.d $$(OWN_LDFLAGS) $$(LDFLAGS) -o $$@ $$< $(1)/libmotes.a $$(LIBS)
+	$$(call say,LD $$@)$$(CC) $$(OWN_CFLAGS) -Itests $$(CFLAGS) $(2) -MMD -MP -MF $$@.d $$(OWN_LDFLAGS) $$(LDFLAGS) -o $$@ $$< $(1)/libmotes.a $$(LIBS)
 endef
 $(eval $(call variant,$(B),))
 $(eval $(call variant,$(B)/asan,$(ASAN)))
@@ -173,7 +175,7 @@ bench-mie: programs
 	PATH="$(CURDIR)/$(B)/bin:$$PATH" CC="$(CC)" MOTES_ARCHIVE="$(CURDIR)/$(B)/libmotes.a" MOTES_PEERS="$(CURDIR)/$(B)/mie-venv" \
 	sh tests/bench/run $(B)/bench $(MIE_BENCHES)
 # Cross sections by the cheapest method within a tolerance.
-bench-xsect: programs $(B)/tests/ladder
+bench-xsect: programs $(B)/tests/physics/ladder
 	PATH="$(CURDIR)/$(B)/bin:$$PATH" MOTES_TESTS="$(CURDIR)/$(B)/tests" sh tests/bench/run $(B)/bench $(XSECT_BENCHES)
 # What each method is good for: error against time, the cheapest method, and where each fails. Beside each chart is a text of how it is made.
 charts: programs

@@ -22,13 +22,13 @@ struct sphere {
 	struct phase_state state;
 	struct waves *w;
 	int n;
-	struct series *series;
+	struct legendre_series *series;
 };
 
 static void sphere_close(struct phase_state *state)
 {
 	struct sphere *s = (struct sphere *)state;
-	series_free(s->series);
+	legendre_series_free(s->series);
 	waves_drop(s->w);
 	free(s);
 }
@@ -44,9 +44,9 @@ static struct phase_state *sphere_open(const void *context, struct waves *w, siz
 	s->w = w;
 	s->state.q_sca = waves_efficiencies(w, NULL).sca;
 	s->state.norm = waves_norm(w, s->state.q_sca);    /* k^2 C_sca: p as the sums give it, not renormalised */
-	s->n = mie_enough(w->n, w->a, w->b, r->tolerance);
-	if (!r->direct && mie_series_pays(s->n, angles)) {
-		s->series = mie_series(s->n, w->a, w->b);
+	s->n = mie_terms_enough(w->n, w->a, w->b, r->tolerance);
+	if (!r->direct && mie_fast_amplitudes_pays(s->n, angles)) {
+		s->series = mie_fast_amplitudes_new(s->n, w->a, w->b);
 		if (!s->series) {
 			free(s);
 			return NULL;
@@ -61,7 +61,7 @@ static int sphere_at(const struct phase_state *state, int n, const double *theta
 	const struct waves *w = s->w;
 	if (!s->series)
 		return mie_amplitudes(s->n, w->a, w->b, n, theta, s1, s2);
-	mie_series_at(s->series, n, theta, s1, s2);
+	mie_fast_amplitudes_at(s->series, n, theta, s1, s2);
 	/* What a series rounds off the forward peak is, where little is scattered backwards, most of all seen there: the few angles about
 	 * that axis are summed. */
 	double behind = 180 - BEHIND * (180 / M_PI) / s->n;

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #define KEY 1e-9               /* keys match within this, relative */
-#define INTERVAL (M_PI / 180)  /* longest interval between nodes: see phase_sample in the kernels */
+#define INTERVAL (M_PI / 180)  /* longest interval between nodes: see phase_draw in the kernels */
 
 static int same(double a, double b)
 {

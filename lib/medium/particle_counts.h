@@ -5,7 +5,6 @@
 #include "medium/medium.h"
 
 #define VOXELS_SIDE 4096
-#define VOXELS_LEVELS 13
 
 /* voxels_level - size of level l over a finest level n[3]: each level halves the one before, rounding up, down to one cube.
  * Returns the number of cubes before it in the pyramid. */

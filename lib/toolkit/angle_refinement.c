@@ -34,20 +34,20 @@ int adapt(const struct phase_profile *profile, const void *context, double toler
 	double x = 0;
 	for (size_t i = 0; i < a->nwaves; i++)
 		x = fmax(x, size_extent(&a->w[i].size));
-	long n = angles_fine(x, tolerance, NULL), *keep = malloc((size_t)n * sizeof *keep);
+	long n = angle_grid_fine(x, tolerance, NULL), *keep = malloc((size_t)n * sizeof *keep);
 	double *values = malloc(a->nwaves * (size_t)n * sizeof *values), **p = malloc(a->nwaves * sizeof *p);
 	a->theta = malloc((size_t)n * sizeof *a->theta);
 	a->state = calloc(a->nwaves, sizeof *a->state);
 	int failed = !keep || !values || !p || !a->theta || !a->state;
 	if (!failed)
-		angles_fine(x, tolerance, a->theta);
+		angle_grid_fine(x, tolerance, a->theta);
 	for (size_t i = 0; !failed && i < a->nwaves; i++) {
 		p[i] = values + i * (size_t)n;
 		a->state[i] = profile->open(context, &a->w[i], (size_t)n);
 		failed = !a->state[i] || adapt_p(profile, a->state[i], n, a->theta, p[i]);
 	}
 	if (!failed) {
-		a->n = angles_thin(n, a->theta, (int)a->nwaves, p, tolerance, keep);
+		a->n = angle_grid_thin(n, a->theta, (int)a->nwaves, p, tolerance, keep);
 		failed = a->n < 0;
 		for (long i = 0; i < a->n; i++)
 			a->theta[i] = a->theta[keep[i]];

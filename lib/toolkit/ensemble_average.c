@@ -37,7 +37,7 @@ struct average {
 	size_t nw;
 	struct mean *mean;
 	size_t nmean;
-	struct subsizes *sub;      /* NULL: none */
+	struct size_quadrature *sub;      /* NULL: none */
 	long n;
 	double *theta;
 	double work;               /* size parameters summed by the levels so far */
@@ -131,7 +131,7 @@ static void read_all(struct average *a)
 			c = xgrow(c, n ? 2 * (size_t)n : 1, sizeof *c);
 		c[n++] = (struct psd_class){ s->radius, s->carried[a->weight_col], s->carried[a->lo_col], s->carried[a->hi_col] };
 	}
-	if (n && !(a->sub = subsizes_new(n, c, scale)))
+	if (n && !(a->sub = size_quadrature_new(n, c, scale)))
 		die(NULL, "out of memory");
 	free(c);
 }
@@ -235,10 +235,10 @@ static void add_level(struct average *a, int level)
 	struct waves w[CHUNK_SIZES];
 	double weight[CHUNK_SIZES], x = 0;
 	size_t n = 0;
-	long count = subsizes_count(a->sub, level);
+	long count = size_quadrature_count(a->sub, level);
 	for (long k = 0; k < count; k++) {
 		double radius, part;
-		subsizes_at(a->sub, level, k, &radius, &part);
+		size_quadrature_at(a->sub, level, k, &radius, &part);
 		for (size_t m = 0; m < a->nmean; m++) {
 			struct waves one = { .size = a->mean[m].size };
 			one.size.x *= radius / one.size.radius;
@@ -332,7 +332,7 @@ static int thin(struct average *a)
 	long *keep = xalloc((size_t)a->n, sizeof *keep);
 	for (size_t m = 0; m < a->nmean; m++)
 		p[m] = a->mean[m].p;
-	long n = angles_thin(a->n, a->theta, (int)a->nmean, p, a->o->tolerance / 2, keep);
+	long n = angle_grid_thin(a->n, a->theta, (int)a->nmean, p, a->o->tolerance / 2, keep);
 	if (n < 0)
 		die(NULL, "out of memory");
 	int enough = n < a->n;
@@ -356,15 +356,15 @@ static int own_angles(struct average *a, int level_only)
 		x = fmax(x, size_extent(s) * (limited(a, s) ? s->carried[a->hi_col] / s->radius : 1));
 	}
 	if (!a->o->profile) {
-		take_angles(a, angles_count(x));
-		angles_grid(x, a->theta);
+		take_angles(a, angle_grid_count(x));
+		angle_grid(x, a->theta);
 		return integrate(a, FIRST_LEVEL, 1);
 	}
 	/* A mean of many sizes is smooth, which is seen when it is there. */
 	int level = FIRST_LEVEL;
 	for (double coarse = a->sub ? COARSE : 1;; coarse /= 4) {
-		take_angles(a, angles_fine(x / coarse, a->o->tolerance / 2, NULL));
-		angles_fine(x / coarse, a->o->tolerance / 2, a->theta);
+		take_angles(a, angle_grid_fine(x / coarse, a->o->tolerance / 2, NULL));
+		angle_grid_fine(x / coarse, a->o->tolerance / 2, a->theta);
 		level = integrate(a, level, 1);
 		if (level_only || thin(a) || coarse == 1)
 			return level;
@@ -389,7 +389,7 @@ void average_table(const struct phase_options *o, struct coeffs *in, phase_model
 	if (o->verbose && a.sub) {
 		long sizes = 0;
 		for (int k = 0; k <= level; k++)
-			sizes += subsizes_count(a.sub, k);
+			sizes += size_quadrature_count(a.sub, k);
 		warn("verbose", "mean over %ld sizes; half as many change it by %.2g", sizes, a.change);
 	}
 	struct tab_out *out = tab_create(output, coeffs_history(in), command, 3, cols);
@@ -404,5 +404,5 @@ void average_table(const struct phase_options *o, struct coeffs *in, phase_model
 	free(a.w);
 	free(a.mean);
 	free(a.theta);
-	subsizes_free(a.sub);
+	size_quadrature_free(a.sub);
 }

@@ -84,7 +84,7 @@ static void tell(const struct job *j, const struct size *size, const struct phas
 
 static int count(const struct job *j, double x)
 {
-	return j->n ? j->n : angles_count(x);
+	return j->n ? j->n : angle_grid_count(x);
 }
 
 /* Compute waves at[0 .. n), in parallel where there are several, and hand them on in order. */
@@ -104,7 +104,7 @@ static void chunk(struct job *j, struct waves *w, const double *x_grid, size_t n
 		if (j->n)
 			memcpy(t, j->theta, (size_t)na * sizeof *t);
 		else
-			angles_grid(x_grid[i], t);
+			angle_grid(x_grid[i], t);
 		r[i].s1 = s + at[i];
 		r[i].s2 = s + angles + at[i];
 		failed |= j->model(j->context, &w[i], na, t, &r[i]) != 0;
@@ -188,7 +188,7 @@ static void choose_angles(struct job *j)
 	size_t n = j->o->theta.n ? j->o->theta.n : (size_t)j->o->angles;
 	j->theta = xalloc(n, sizeof *j->theta);
 	if (j->o->angles)
-		angles_equal((int)n, j->theta);
+		angle_grid_equal((int)n, j->theta);
 	else if (n) {
 		memcpy(j->theta, j->o->theta.v, n * sizeof *j->theta);
 		qsort(j->theta, n, sizeof *j->theta, ascending);

@@ -19,7 +19,7 @@ static void find_pencils(double complex m, struct cam_rays *c)
 			double i = lo + width * (1 + gauss_node[j]) / 2, u = sin(i), t = inside ? asin(u / n) : 0;
 			struct ray r = { .sin_i = u, .cos_i = cos(i) };
 			double complex r1, r2;
-			goa_fresnel(m, u, cos(i), &r1, &r2);
+			goa_rays_fresnel(m, u, cos(i), &r1, &r2);
 			c->pencil[c->pencils++] = (struct cam_pencil){ gauss_weight[j] * width * u * cos(i), { norm2(r1), norm2(r2) },
 				inside ? cimag(goa_chord(m, &r)) : INFINITY, cexp(2 * I * (t - i)), -cexp(2 * I * t), -cos(2 * i) };
 		}
@@ -38,12 +38,12 @@ static void find_glories(double complex m, struct cam_rays *c)
 			if (r->axial || r->sigma < 0)     /* one of each pair; the axis itself is no glory */
 				continue;
 			double u = r->sin_i, q3 = r->q * r->q * r->q;
-			order_amplitude(p, m, u, 0, f);
+			debye_order_amplitude(p, m, u, 0, f);
 			if (cabs(f[0] + f[1]) < FAINT)
 				continue;
 			c->glory[c->glories++] = (struct cam_glory){
 				-2 * u * (f[0] + f[1]) * sqrt(2 * M_PI * r->cos_i) * cexp(I * M_PI_4 * (r->eighths + 1)),
-				order_path(p, m, u),
+				debye_order_path(p, m, u),
 				u, r->slope, 2 * p * u * (n * n - 1) / q3 };
 		}
 	}
@@ -64,9 +64,9 @@ static void find_polygons(double complex m, struct cam_rays *c)
 			struct cam_polygon g = { .u = u, .phase = 2 * k * q };
 			if (u >= 1)
 				continue;
-			order_amplitude(0, m, u, 0, f0);
-			order_amplitude(1, m, u, 0, f1);
-			order_amplitude(2, m, u, 0, f2);
+			debye_order_amplitude(0, m, u, 0, f0);
+			debye_order_amplitude(1, m, u, 0, f1);
+			debye_order_amplitude(2, m, u, 0, f2);
 			g.chord = 2 * cimag(goa_chord(m, &r));
 			g.fade = k * g.chord / 2;
 			for (int j = 0; j < 2; j++) {

@@ -2,6 +2,7 @@
 
 #include "optics/goa/debye_waves.h"
 #include "optics/numerics/gauss.h"
+#include "optics/numerics/smoothstep.h"
 
 #define ARCS 6         /* panels in angle */
 #define EDGES 6        /* and across a turning point, EDGE widths to either side */
@@ -12,7 +13,7 @@
 double cam_share(double x, double lambda)
 {
 	double s = cbrt(x / 2), first, second;
-	return window_piece(fmax(x - DEEP * s, 0), 1 / ((DEEP - FULL) * s), lambda, &first, &second);
+	return smoothstep(fmax(x - DEEP * s, 0), 1 / ((DEEP - FULL) * s), lambda, &first, &second);
 }
 
 /* One order more of the amplitude's Debye expansion: xi'/xi = i f - .., f^2 = c^2 - f''/(2 f) + (3/4)(f'/f)^2 + 1/(4 z^2). */
@@ -129,8 +130,8 @@ void cam_mean(double x, double complex m, double *abs, double *pr)
 void cam_ripple(double x, double complex m, double *ext, double *abs, double *pr)
 {
 	const struct debye_bounds bounds = debye_bounds(x, m);
-	double s = cbrt(x / 2), y = creal(m) * x, turn = y - EDGE_TURN * cbrt(y / 2);
-	int first = (int)fmax(floor(x - DEEP * s - 0.5), 1), last = (int)fmin(ceil(x + EDGE_TOP * s), turn - 1), absorbs = cimag(m) > 0;
+	double s = cbrt(x / 2), y = creal(m) * x, turn = y - DEBYE_TURN * cbrt(y / 2);
+	int first = (int)fmax(floor(x - DEEP * s - 0.5), 1), last = (int)fmin(ceil(x + DEBYE_TOP * s), turn - 1), absorbs = cimag(m) > 0;
 	*ext = *abs = *pr = 0;
 	for (int l0 = first; l0 <= last; l0 += DEBYE_WIDTH - 1) {
 		double lambda[DEBYE_WIDTH];

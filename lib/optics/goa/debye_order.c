@@ -8,7 +8,7 @@ static double complex inverse(double complex z)
 	return CMPLX(creal(z) * r, -cimag(z) * r);
 }
 
-void order_amplitude(int p, double complex m, double complex u, double epsilon, double complex f[2])
+void debye_order_amplitude(int p, double complex m, double complex u, double epsilon, double complex f[2])
 {
 	double complex u2 = u * u, ci = csqrt(1 - u2), q;
 	if (cimag(m) == 0 && cimag(u) == 0) {
@@ -35,7 +35,7 @@ void order_amplitude(int p, double complex m, double complex u, double epsilon, 
 	}
 }
 
-double complex order_path(int p, double complex m, double complex u)
+double complex debye_order_path(int p, double complex m, double complex u)
 {
 	double complex ci = csqrt((1 - u) * (1 + u));
 	if (cimag(m) == 0)
@@ -67,29 +67,29 @@ static void phases(int p, double n, double u, double *p2, double *p3, double *p4
 	}
 }
 
-void order_terms(int p, double complex m, double u, double theta, int sigma, int axial, struct order_terms *out)
+void debye_order_terms(int p, double complex m, double u, double theta, int sigma, int axial, struct debye_order_terms *out)
 {
 	double n = creal(m), end = p && n < 1 ? n : 1, at = u;
-	if (axial && u < ORDER_AXIAL && end > 2 * ORDER_AXIAL) {
-		at = ORDER_AXIAL;
+	if (axial && u < DEBYE_ORDER_AXIAL && end > 2 * DEBYE_ORDER_AXIAL) {
+		at = DEBYE_ORDER_AXIAL;
 		double axis = fabs(2 * asin(at) - 2 * p * asin(at / n));
 		theta = p % 2 ? axis : M_PI - axis;
 	}
 	double h = fmin(1e-3 * fmin(1, 20 * at), (end - at) / 8), p2, p3, p4;
 	int total = p == 0 && at >= n;      /* reflection: R turns fast, the strip has what is near */
 	double complex lo[2], hi[2], up[2], down[2], f[2];
-	order_amplitude(p, m, u, 0, out->f);
-	out->path = order_path(p, m, u);
+	debye_order_amplitude(p, m, u, 0, out->f);
+	out->path = debye_order_path(p, m, u);
 	out->e = 0;
 	for (int j = 0; j < 2; j++)
 		out->g[j] = out->h[j] = 0;
 	if (h <= 0 || (p == 0 && n < 1 && fabs(at - n) < 2 * h))
 		return;
-	order_amplitude(p, m, at, 0, f);
-	order_amplitude(p, m, at - h, 0, lo);
-	order_amplitude(p, m, at + h, 0, hi);
-	order_amplitude(p, m, at, 1e-5, up);
-	order_amplitude(p, m, at, -1e-5, down);
+	debye_order_amplitude(p, m, at, 0, f);
+	debye_order_amplitude(p, m, at - h, 0, lo);
+	debye_order_amplitude(p, m, at + h, 0, hi);
+	debye_order_amplitude(p, m, at, 1e-5, up);
+	debye_order_amplitude(p, m, at, -1e-5, down);
 	phases(p, n, at, &p2, &p3, &p4);
 	if (!(fabs(p2) > 1e-8))    /* a focus: no form of rays holds */
 		return;

@@ -1,5 +1,5 @@
-/* debye_waves - the partial waves of a large sphere one reflection after the other (Debye series), by asymptotic forms; part of
- * the loops that are compiled for each processor.
+/* debye_waves - the partial waves of a large sphere one reflection after the other (Debye series), by asymptotic forms. Part
+ * of the loops that are compiled for each processor.
  *
  * A wave's scattering coefficient is a_l = (1 - S_2)/2, b_l = (1 - S_1)/2, S = R + sum_(p>=1) T I^(p-1): reflected outside, or
  * transmitted into p chords. Index 0 is b_l (amplitude S1, perpendicular), index 1 is a_l. lambda = l + 1/2.
@@ -10,8 +10,9 @@
 #ifndef OPTICS_DEBYE_WAVES_H
 #define OPTICS_DEBYE_WAVES_H
 
+#include "optics/goa/debye_bounds.h"
 #include "optics/numerics/airy.h"
-#include "optics/goa/goa_plus_edge.h"
+#include "optics/numerics/lane_math.h"
 
 #include <math.h>
 
@@ -26,21 +27,6 @@ struct debye_phase {
 struct debye {
 	double complex r[2], t[2], i[2];
 };
-
-/* How far away from the turning points outside and inside, as bounds on lambda. */
-struct debye_bounds {
-	double outside, separable;
-	int opaque;            /* nothing comes back from inside */
-};
-
-static struct debye_bounds debye_bounds(double x, double complex m)
-{
-	double y = creal(m) * x, top = x + EDGE_TOP * cbrt(x / 2);
-	double complex z = m * x;
-	int separable = edge_separable(x, m, top);
-	return (struct debye_bounds){ x - EDGE_TURN * cbrt(x / 2), separable ? INFINITY : y - EDGE_TURN * cbrt(y / 2),
-		cimag(m) > 0 && separable && cimag(csqrt((z - top) * (z + top)) - top * cacos(top / z)) > 20 };
-}
 
 /* Langer's variable of a cylinder function of order lambda at z lambda: zeta, and q = 4 zeta/(1 - z^2). */
 static void langer_real(double z, double *zeta, double *q)
@@ -98,71 +84,88 @@ static void debye_surface(double complex f, double complex a1, double complex l1
 	*i = -ry * (b1 - a1) / (b2 - a1);
 }
 
-/* R, T, I of one wave, number i of those that the phases are of. Where the orders cannot be told apart (edge_separable), r is the
+/* xi'/xi of the outgoing wave outside, and xi*(x)/xi(x). */
+static void debye_outside(double x, const struct debye_bounds *bounds, double lambda, int i, const struct debye_phase *outside,
+                          double complex *a1, double complex *rx)
+{
+	if (lambda < bounds->outside) {
+		*a1 = CMPLX(-outside->k[i], outside->c[i]);
+		*rx = CMPLX(outside->cosine[i], -outside->sine[i]);
+		return;
+	}
+	double z = x / lambda, zeta, q, l = cbrt(lambda);
+	langer_real(z, &zeta, &q);
+	struct airy a = airy_real(fmin(l * l * zeta, 60));
+	double root = sqrt(sqrt(q));
+	double complex h = root / l * CMPLX(a.ai, -a.bi), hp = -(2 / z) / (root * l * l) * CMPLX(a.aip, -a.bip);
+	*a1 = 1 / (2 * x) + hp / h;
+	*rx = conj(h) / h;
+}
+
+/* The regular wave inside and its derivative, but for a common factor; real for a real index. */
+static void debye_regular(double complex y, int absorbs, double lambda, double complex *psi, double complex *psip)
+{
+	double l = cbrt(lambda);
+	if (!absorbs) {
+		double z = creal(y) / lambda, zeta, q;
+		langer_real(z, &zeta, &q);
+		double at = l * l * zeta, root = sqrt(sqrt(q)), ai = 1;
+		double aip = -sqrt(at) - 0.25 / at; /* far outside but for a factor */
+		if (at < 30) {
+			struct airy a = airy_real(at);
+			ai = a.ai;
+			aip = a.aip;
+		}
+		*psi = root / l * ai;
+		*psip = *psi / (2 * creal(y)) - (2 / z) / (root * l * l) * aip;
+	} else {
+		double complex z = y / lambda, zeta, q;
+		langer_complex(z, &zeta, &q);
+		double complex root = csqrt(csqrt(q));
+		*psi = root / l;      /* but for Ai */
+		*psip = *psi / (2 * y) - (2 / z) / (root * l * l) * airy_ratio(l * l * zeta);
+	}
+}
+
+/* The logarithmic derivatives of both waves inside, and the phase of a chord. */
+static void debye_inside(double complex y, int absorbs, const struct debye_bounds *bounds, double lambda, int i,
+                         const struct debye_phase *inside, double complex *l1, double complex *l2, double complex *ry)
+{
+	if (!absorbs) {
+		*l1 = CMPLX(-inside->k[i], inside->c[i]);
+		*l2 = conj(*l1);
+		*ry = CMPLX(inside->cosine[i], inside->sine[i]);
+		return;
+	}
+	double complex s = csqrt((y - lambda) * (y + lambda));
+	if (cimag(s) < 0)
+		s = -s;
+	double complex c = s / y, k = lambda * lambda / (2 * y * s * s);
+	*l1 = I * c - k;
+	*l2 = -I * c - k;
+	*ry = 0;
+	if (!bounds->opaque)
+		*ry = cexp(2 * I * (s - lambda * cacos(lambda / y) - M_PI / 4 - (3 + 5 * lambda * lambda / (s * s)) / (24 * s)));
+}
+
+/* R, T, I of one wave, number i of those that the phases are of. Where the orders cannot be told apart (debye_separable), r is the
  * whole sum S and t, i are 0. lambda is at most x + 8 (x/2)^(1/3). */
 static void debye_term(double x, double complex m, const struct debye_bounds *bounds, double lambda, int i,
                        const struct debye_phase *outside, const struct debye_phase *inside, struct debye *out)
 {
-	double complex a1, rx;      /* xi'/xi of the outgoing wave outside; xi*(x)/xi(x) */
-	if (lambda < bounds->outside) {
-		a1 = CMPLX(-outside->k[i], outside->c[i]);
-		rx = CMPLX(outside->cosine[i], -outside->sine[i]);
-	} else {
-		double z = x / lambda, zeta, q, l = cbrt(lambda);
-		langer_real(z, &zeta, &q);
-		struct airy a = airy_real(fmin(l * l * zeta, 60));
-		double root = sqrt(sqrt(q));
-		double complex h = root / l * CMPLX(a.ai, -a.bi), hp = -(2 / z) / (root * l * l) * CMPLX(a.aip, -a.bip);
-		a1 = 1 / (2 * x) + hp / h;
-		rx = conj(h) / h;
-	}
-	double complex a2 = conj(a1), y = m * x;
+	double complex a1, rx, y = m * x;
 	const double complex f[2] = { m, 1 / m };
+	debye_outside(x, bounds, lambda, i, outside, &a1, &rx);
 	if (lambda >= bounds->separable) {
-		/* the regular wave inside and its derivative; real for a real index */
-		double l = cbrt(lambda);
-		double complex psi, psip;
-		if (cimag(m) == 0) {
-			double z = creal(y) / lambda, zeta, q;
-			langer_real(z, &zeta, &q);
-			double at = l * l * zeta, root = sqrt(sqrt(q)), ai = 1;
-			double aip = -sqrt(at) - 0.25 / at; /* far outside but for a factor */
-			if (at < 30) {
-				struct airy a = airy_real(at);
-				ai = a.ai;
-				aip = a.aip;
-			}
-			psi = root / l * ai;
-			psip = psi / (2 * creal(y)) - (2 / z) / (root * l * l) * aip;
-		} else {
-			double complex z = y / lambda, zeta, q;
-			langer_complex(z, &zeta, &q);
-			double complex root = csqrt(csqrt(q));
-			psi = root / l;      /* but for Ai */
-			psip = psi / (2 * y) - (2 / z) / (root * l * l) * airy_ratio(l * l * zeta);
-		}
+		double complex a2 = conj(a1), psi, psip;
+		debye_regular(y, cimag(m) != 0, lambda, &psi, &psip);
 		out->r[0] = -rx * (a2 * psi - f[0] * psip) / (a1 * psi - f[0] * psip);
 		out->r[1] = -rx * (a2 * psi - f[1] * psip) / (a1 * psi - f[1] * psip);
 		out->t[0] = out->t[1] = out->i[0] = out->i[1] = 0;
 		return;
 	}
 	double complex l1, l2, ry;
-	if (cimag(m) == 0) {
-		l1 = CMPLX(-inside->k[i], inside->c[i]);
-		l2 = conj(l1);
-		ry = CMPLX(inside->cosine[i], inside->sine[i]);
-	} else {
-		double complex s = csqrt((y - lambda) * (y + lambda));
-		if (cimag(s) < 0)
-			s = -s;
-		double complex c = s / y, k = lambda * lambda / (2 * y * s * s);
-		l1 = I * c - k;
-		l2 = -I * c - k;
-		ry = 0;
-		if (!bounds->opaque)
-			ry = cexp(2 * I *
-				  (s - lambda * cacos(lambda / y) - M_PI / 4 - (3 + 5 * lambda * lambda / (s * s)) / (24 * s)));
-	}
+	debye_inside(y, cimag(m) != 0, bounds, lambda, i, inside, &l1, &l2, &ry);
 	debye_surface(f[0], a1, l1, l2, rx, ry, &out->r[0], &out->t[0], &out->i[0]);
 	debye_surface(f[1], a1, l1, l2, rx, ry, &out->r[1], &out->t[1], &out->i[1]);
 }

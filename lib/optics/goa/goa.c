@@ -26,7 +26,7 @@ struct goa {
 	int fronts;
 	struct entry entry[2 * PANELS * GAUSS];
 	int entries;                    /* 0: does not absorb */
-	struct goa_grid grid[GRIDS];    /* for the norm, by size */
+	struct goa_norm_grid grid[GRIDS];    /* for the norm, by size */
 };
 
 static void caps(const struct goa *g, double x, struct goa_cap *cap)
@@ -55,16 +55,16 @@ static void amplitudes(const struct goa *g, const struct goa_rays *r, double x, 
 	}
 }
 
-/* goa_grid_sum, negative when memory ran out. */
+/* goa_norm_grid_sum, negative when memory ran out. */
 static double integral(struct goa *g, int interfere, double x, double *along)
 {
 	int level = (int)fmin(fmax(ceil(log2(x)), 0), GRIDS - 1);
-	struct goa_grid *grid = &g->grid[level];
+	struct goa_norm_grid *grid = &g->grid[level];
 	struct goa_cap cap[GOA_ORDER_MAX + 1];
-	if (!grid->rays.n && goa_grid_new(g->m, g->order, g->caustic, ldexp(1, level), grid))
+	if (!grid->rays.n && goa_norm_grid_new(g->m, g->order, g->caustic, ldexp(1, level), grid))
 		return -1;
 	caps(g, x, cap);
-	return goa_grid_sum(g->lanes, grid, interfere, x, cap, along);
+	return goa_norm_grid_sum(g->lanes, grid, interfere, x, cap, along);
 }
 
 /* The quadrature of absorption, in the angle of incidence. */
@@ -82,7 +82,7 @@ static int enter(double complex m, struct entry *out)
 			double i = lo + width * (1 + gauss_node[j]) / 2, s = sin(i), c = cos(i);
 			struct ray r = { .sin_i = s, .cos_i = c };
 			double complex r1, r2;
-			goa_fresnel(m, s, c, &r1, &r2);
+			goa_rays_fresnel(m, s, c, &r1, &r2);
 			out[k++] = (struct entry){ gauss_weight[j] * width / 2 * s * c, { creal(r1 * conj(r1)), creal(r2 * conj(r2)) },
 			                           inside ? cimag(goa_chord(m, &r)) : INFINITY };
 		}
@@ -104,7 +104,7 @@ struct goa *goa_new(double complex m, int order)
 		g->caustic[p] = rays_caustic(creal(m), p);
 	g->front = malloc((size_t)((most + 1) * (most + 8)) * sizeof *g->front);    /* the sum of RAYS_MAX */
 	if (g->front)
-		g->fronts = goa_trace(m, most, g->caustic, 0, g->front);
+		g->fronts = goa_rays_trace(m, most, g->caustic, 0, g->front);
 	if (g->front && !goa_rays_find(m, order, g->caustic, 1, (double[]){ 180 }, &g->back))
 		return g;
 	goa_free(g);
@@ -119,7 +119,7 @@ void goa_free(struct goa *g)
 	goa_rays_free(&g->asked);
 	goa_rays_free(&g->back);
 	for (int k = 0; k < GRIDS; k++)
-		goa_grid_free(&g->grid[k]);
+		goa_norm_grid_free(&g->grid[k]);
 	free(g);
 }
 
@@ -187,7 +187,7 @@ static double glory(const struct goa *g, double x)
 	for (int i = 0; i < g->fronts; i++) {
 		const struct goa_beam *b = &g->front[i];
 		if (!b->ray.axial)
-			sum += 2 / x * goa_spread(x, &b->ray, &cap[b->ray.p]) * (cabs(b->f1) + cabs(b->f2)) *
+			sum += 2 / x * goa_rays_spread(x, &b->ray, &cap[b->ray.p]) * (cabs(b->f1) + cabs(b->f2)) *
 			       exp(-x * cimag(b->path));
 	}
 	return sum;

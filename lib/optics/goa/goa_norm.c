@@ -2,6 +2,7 @@
 
 #include "base/ascending.h"
 #include "optics/numerics/gauss.h"
+#include "optics/numerics/smoothstep.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -47,7 +48,7 @@ static int panels(double n, int order, const struct caustic *caustic, double mos
 	return k;
 }
 
-int goa_grid_new(double complex m, int order, const struct caustic *caustic, double most, struct goa_grid *out)
+int goa_norm_grid_new(double complex m, int order, const struct caustic *caustic, double most, struct goa_norm_grid *out)
 {
 	double *end = malloc(1000 * sizeof *end), *theta = NULL;
 	int status = -1;
@@ -69,8 +70,8 @@ int goa_grid_new(double complex m, int order, const struct caustic *caustic, dou
 			double complex r1, r2;
 			theta[k] = t * (180 / M_PI);
 			out->weight[k] = 2 * M_PI * sin(t) * half * gauss_weight[i];
-			out->share[k] = most <= ALL ? 1 : window_piece(LAST / most, most / (FULL - LAST), near, &first, &second);
-			goa_fresnel(m, cos(t / 2), sin(t / 2), &r1, &r2);
+			out->share[k] = most <= ALL ? 1 : smoothstep(LAST / most, most / (FULL - LAST), near, &first, &second);
+			goa_rays_fresnel(m, cos(t / 2), sin(t / 2), &r1, &r2);
 			out->cosine[k] = cos(t);
 			/* -2 cos i with i = (pi - theta)/2; what is constant is pi/2 of the ray and 3 pi/4 of diffraction */
 			out->reflected[k] = -(r1 + r2) / 2 * CMPLX(M_SQRT1_2, -M_SQRT1_2);
@@ -81,11 +82,11 @@ int goa_grid_new(double complex m, int order, const struct caustic *caustic, dou
 	free(end);
 	free(theta);
 	if (status)
-		goa_grid_free(out);
+		goa_norm_grid_free(out);
 	return status;
 }
 
-void goa_grid_free(struct goa_grid *g)
+void goa_norm_grid_free(struct goa_norm_grid *g)
 {
 	goa_rays_free(&g->rays);
 	free(g->weight);
@@ -96,8 +97,8 @@ void goa_grid_free(struct goa_grid *g)
 	memset(g, 0, sizeof *g);
 }
 
-double goa_grid_sum(const struct goa_lanes *lanes, const struct goa_grid *g, int interfere, double x, const struct goa_cap *cap,
-		    double *along)
+double goa_norm_grid_sum(const struct goa_lanes *lanes, const struct goa_norm_grid *g, int interfere, double x,
+                         const struct goa_cap *cap, double *along)
 {
 	double sum = 0;
 	*along = 0;

@@ -7,7 +7,7 @@
 /* Panels of GOA_WIDTH Gauss nodes for sizes in (X/2, X]. Near the axes, or everywhere where X is small, interference is resolved;
  * between there only the powers of the rays are added and the one cross term that is slow: p = 0 against diffraction. Other
  * interference averages out: it has neither ends nor points of rest there. */
-struct goa_grid {
+struct goa_norm_grid {
 	struct goa_rays rays;
 	double *weight;               /* with 2 pi sin theta */
 	double *share;                /* of interference that is resolved */
@@ -16,12 +16,12 @@ struct goa_grid {
 	double *path;                 /* of that cross term, in pi/2 */
 };
 
-/* goa_grid_new - for sizes up to X. Returns 0, or -1 when memory ran out (there is nothing to free then). */
-int goa_grid_new(double complex m, int order, const struct caustic *caustic, double most, struct goa_grid *out);
-void goa_grid_free(struct goa_grid *g);
+/* goa_norm_grid_new - for sizes up to X. Returns 0, or -1 when memory ran out (there is nothing to free then). */
+int goa_norm_grid_new(double complex m, int order, const struct caustic *caustic, double most, struct goa_norm_grid *out);
+void goa_norm_grid_free(struct goa_norm_grid *g);
 
-/* goa_grid_sum - the integral of (|S1|^2 + |S2|^2)/2, with interference or without. *along: the same times cos theta. */
-double goa_grid_sum(const struct goa_lanes *lanes, const struct goa_grid *g, int interfere, double x, const struct goa_cap *cap,
-		    double *along);
+/* goa_norm_grid_sum - the integral of (|S1|^2 + |S2|^2)/2, with interference or without. *along: the same times cos theta. */
+double goa_norm_grid_sum(const struct goa_lanes *lanes, const struct goa_norm_grid *g, int interfere, double x,
+                         const struct goa_cap *cap, double *along);
 
 #endif

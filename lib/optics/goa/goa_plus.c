@@ -1,6 +1,6 @@
 #include "optics/goa/goa_plus.h"
 
-#include "optics/goa/goa_lanes.h"
+#include "optics/goa/goa_plus_lanes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,8 +8,8 @@
 
 struct goa_plus {
 	double complex m;
-	const struct goa_lanes *lanes;
-	struct plus_rays axes, asked;
+	const struct goa_plus_lanes *lanes;
+	struct goa_plus_rays axes, asked;
 };
 
 struct goa_plus *goa_plus_new(double complex m)
@@ -18,8 +18,8 @@ struct goa_plus *goa_plus_new(double complex m)
 	if (!g)
 		return NULL;
 	g->m = m;
-	g->lanes = goa_lanes();
-	if (plus_rays_find(m, 2, (double[]){ 0, 180 }, &g->axes)) {
+	g->lanes = goa_plus_lanes();
+	if (goa_plus_rays_find(m, 2, (double[]){ 0, 180 }, &g->axes)) {
 		free(g);
 		return NULL;
 	}
@@ -30,8 +30,8 @@ void goa_plus_free(struct goa_plus *g)
 {
 	if (!g)
 		return;
-	plus_rays_free(&g->axes);
-	plus_rays_free(&g->asked);
+	goa_plus_rays_free(&g->axes);
+	goa_plus_rays_free(&g->asked);
 	free(g);
 }
 
@@ -39,41 +39,41 @@ int goa_plus_aim(struct goa_plus *g, int n, const double *theta)
 {
 	if (n && n == g->asked.n && !memcmp(theta, g->asked.theta, (size_t)n * sizeof *theta))
 		return 0;
-	plus_rays_free(&g->asked);
-	return plus_rays_find(g->m, n, theta, &g->asked);
+	goa_plus_rays_free(&g->asked);
+	return goa_plus_rays_find(g->m, n, theta, &g->asked);
 }
 
-static void amplitudes(const struct goa_lanes *lanes, const struct plus_rays *r, const struct edge *e, double complex *s1,
-		       double complex *s2)
+static void amplitudes(const struct goa_plus_lanes *lanes, const struct goa_plus_rays *r, const struct goa_plus_edge *e,
+                       double complex *s1, double complex *s2)
 {
-	for (int b = 0, from = 0; from < r->n; b++, from += PLUS_WIDTH) {
-		double s[4][PLUS_WIDTH] = { { 0 } };
+	for (int b = 0, from = 0; from < r->n; b++, from += GOA_WIDTH) {
+		double s[4][GOA_WIDTH] = { { 0 } };
 		lanes->waves(e, &r->edge[b], s);
-		if (!e->whole)
-			lanes->plus(&r->packet[r->first[b]], r->first[b + 1] - r->first[b], e, s);
-		for (int i = 0; i < PLUS_WIDTH && from + i < r->n; i++) {
+		if (!e->windows.whole)
+			lanes->rays(&r->packet[r->first[b]], r->first[b + 1] - r->first[b], e, s);
+		for (int i = 0; i < GOA_WIDTH && from + i < r->n; i++) {
 			s1[from + i] = CMPLX(s[0][i], s[1][i]);
 			s2[from + i] = CMPLX(s[2][i], s[3][i]);
 		}
 	}
-	if (!e->whole)
-		plus_rays_pairs(r, e, s1, s2);
+	if (!e->windows.whole)
+		goa_plus_caustics_add(r, e, s1, s2);
 }
 
 int goa_plus_at(const struct goa_plus *g, double x, double complex *s1, double complex *s2, struct efficiencies *q)
 {
 	double complex axis1[2], axis2[2];
-	struct edge e = { 0 };
+	struct goa_plus_edge e = { 0 };
 	*q = (struct efficiencies){ 0 };
-	if (edge_set(g->lanes, &e, x, g->m)) {
-		edge_free(&e);
+	if (goa_plus_edge_set(g->lanes, &e, x, g->m)) {
+		goa_plus_edge_free(&e);
 		return -1;
 	}
 	amplitudes(g->lanes, &g->asked, &e, s1, s2);
 	amplitudes(g->lanes, &g->axes, &e, axis1, axis2);
 	q->ext = 4 * creal(axis1[0]) / (x * x);
 	q->abs = g->lanes->absorption(&e);
-	edge_free(&e);
+	goa_plus_edge_free(&e);
 	q->sca = q->ext - q->abs;
 	q->back = 4 * creal(axis1[1] * conj(axis1[1])) / (x * x);
 	if (!(q->sca > 0))      /* far from where this holds */
@@ -85,7 +85,7 @@ double goa_plus_error(double x, double complex m)
 {
 	double n = creal(m);
 	/* where an index near 1 leaves rays that are not distinct, beyond what is summed as waves */
-	if (x > EDGE_SOFT_MAX && x * fabs(n - 1) < EDGE_SOFT)
+	if (x > GOA_PLUS_SOFT_MAX && x * fabs(n - 1) < GOA_PLUS_SOFT)
 		return 1;
 	/* resonances of a small sphere of high index, a little beside their places; what orders left out hold between strong mirrors */
 	return fmin(1, 0.005 + (0.1 + 2 * fmax(n - 1, 0)) / x + 0.0035 * fmax(n - 2.5, 0));
@@ -94,6 +94,6 @@ double goa_plus_error(double x, double complex m)
 int goa_plus_pays(double x, int ntheta)
 {
 	/* in 0.3 ns, as measured with AVX-512: waves at the edge, and 20 us an angle, shared, for rays, against a partial wave's
-	 * coefficients and its terms at every angle, or what it costs in a series (mie_series_pays) */
+	 * coefficients and its terms at every angle, or what it costs in a series (mie_fast_amplitudes_pays) */
 	return ntheta <= GOA_PLUS_ANGLES && x * (100 + fmin(ntheta, 1200)) > 1e6 + 64000.0 / GOA_PLUS_SHARED * ntheta;
 }

@@ -4,15 +4,16 @@
 
 #include <math.h>
 
-static double share(const struct edge *e, int p, double u)
+/* What the window leaves to rays. */
+static double left(const struct goa_plus_edge *e, int p, double u)
 {
-	return 1 - window_at(&e->window[p], u);
+	return 1 - goa_plus_window_at(&e->windows.order[p], u);
 }
 
-static void add_rainbow(const struct plus_rainbow *r, const struct edge *e, double complex *s1, double complex *s2)
+static void add_rainbow(const struct goa_plus_rainbow *r, const struct goa_plus_edge *e, double complex *s1, double complex *s2)
 {
-	double x = e->x, third = cbrt(x), wa = share(e, r->p, r->ua), wb = share(e, r->p, r->ub);
-	if ((wa == 0 && wb == 0) || fmax(creal(r->fade_a), creal(r->fade_b)) * x < -PLUS_ABSORBED)
+	double x = e->x, third = cbrt(x), wa = left(e, r->p, r->ua), wb = left(e, r->p, r->ub);
+	if ((wa == 0 && wb == 0) || fmax(creal(r->fade_a), creal(r->fade_b)) * x < -GOA_PLUS_ABSORBED)
 		return;
 	struct airy airy = airy_real(-third * third * r->zeta);
 	double complex fa = wa, fb = wb, common = cexp(I * x * r->path);
@@ -26,10 +27,10 @@ static void add_rainbow(const struct plus_rainbow *r, const struct edge *e, doub
 	*s2 += common * ((r->a[1] * fa + r->b[1] * fb) * airy.ai + over * (r->b[1] * fb - r->a[1] * fa) * airy.aip);
 }
 
-static void add_glory(const struct plus_glory *g, const struct edge *e, double complex *s1, double complex *s2)
+static void add_glory(const struct goa_plus_glory *g, const struct goa_plus_edge *e, double complex *s1, double complex *s2)
 {
-	double x = e->x, w = share(e, g->p, g->u), z = x * g->z;
-	if (w == 0 || g->fade * x > PLUS_ABSORBED)
+	double x = e->x, w = left(e, g->p, g->u), z = x * g->z;
+	if (w == 0 || g->fade * x > GOA_PLUS_ABSORBED)
 		return;
 	double b0 = j0(z), b1 = j1(z), b2 = z > 1e-3 ? 2 * b1 / z - b0 : z * z / 8, slope = z > 1e-3 ? b1 - 2 * b2 / z : z / 4;
 	double complex common = w * x * sqrt(x) * exp(-x * g->fade) * cexp(I * x * g->path);
@@ -40,7 +41,7 @@ static void add_glory(const struct plus_glory *g, const struct edge *e, double c
 	*s2 += even ? two - zero : zero - two;
 }
 
-void plus_rays_pairs(const struct plus_rays *r, const struct edge *e, double complex *s1, double complex *s2)
+void goa_plus_caustics_add(const struct goa_plus_rays *r, const struct goa_plus_edge *e, double complex *s1, double complex *s2)
 {
 	for (int k = 0; k < r->rainbows; k++)
 		if (e->x < r->rainbow[k].below)

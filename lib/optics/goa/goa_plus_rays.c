@@ -24,7 +24,7 @@ struct direction {
 	int n;
 	struct {
 		struct ray ray;
-		struct order_terms terms;
+		struct debye_order_terms terms;
 		double from;
 	} found[RAYS];
 };
@@ -65,7 +65,7 @@ static double complex incidence(double n, int p, double complex i, double tau)
 
 /* Chester-Friedman-Ursell: S = sqrt(pi) e^(iX) { (G_A h_A + G_B h_B) Ai(-zeta) + i [(G_B h_B - G_A h_A)/rho] Ai'(-zeta) }.
  * eighths: of the ray inside the rainbow's, whose Theta' < 0. Returns the size from which on rays do without. */
-static double rainbow(const struct direction *d, double tau, int eighths, struct plus_rainbow *out)
+static double rainbow(const struct direction *d, double tau, int eighths, struct goa_plus_rainbow *out)
 {
 	double n = creal(d->m), c = d->caustic.incidence, bend = d->caustic.bend, beside = tau - d->caustic.tau;
 	if (fabs(beside) < 5e-7 * bend)
@@ -78,14 +78,14 @@ static double rainbow(const struct direction *d, double tau, int eighths, struct
 		double complex f[2], ci = ccos(at[k]);
 		u[k] = csin(at[k]);
 		slope[k] = 2 - 2 * d->p * ci / csqrt((n - 1) * (n + 1) + ci * ci);
-		path[k] = order_path(d->p, n, u[k]);
-		order_amplitude(d->p, d->m, u[k], 0, f);
+		path[k] = debye_order_path(d->p, n, u[k]);
+		debye_order_amplitude(d->p, d->m, u[k], 0, f);
 		for (int j = 0; j < 2; j++)
 			g[k][j] = -f[j] * csqrt(u[k] * ci) * sqrt(M_PI) * eighth(eighths - 1);
 	}
 	double complex rho = slope[1] * cpow(0.75 * (path[1] - path[0]) / (slope[1] * slope[1] * slope[1]), 1.0 / 3);
 	double complex ha = csqrt(-rho / slope[0]), hb = csqrt(rho / slope[1]);
-	*out = (struct plus_rainbow){ .angle = d->angle, .p = d->p, .sine = d->sine, .u = sin(c),
+	*out = (struct goa_plus_rainbow){ .angle = d->angle, .p = d->p, .sine = d->sine, .u = sin(c),
 		.path = creal(path[0] + path[1]) / 2, .zeta = creal(rho * rho), .over_rho = I / rho,
 		.ua = beside > 0 ? creal(u[0]) : sin(c), .ub = beside > 0 ? creal(u[1]) : sin(c) };
 	for (int j = 0; j < 2; j++) {
@@ -93,8 +93,8 @@ static double rainbow(const struct direction *d, double tau, int eighths, struct
 		out->b[j] = g[1][j] * hb;
 	}
 	if (cimag(d->m) != 0) {
-		out->fade_a = I * (order_path(d->p, d->m, u[0]) - path[0]);
-		out->fade_b = I * (order_path(d->p, d->m, u[1]) - path[1]);
+		out->fade_a = I * (debye_order_path(d->p, d->m, u[0]) - path[0]);
+		out->fade_b = I * (debye_order_path(d->p, d->m, u[1]) - path[1]);
 		if (creal(out->fade_a) > 0 || creal(out->fade_b) > 0) /* a wave absorbed far too much to be near the real ray */
 			out->fade_a = out->fade_b = -INFINITY;
 	}
@@ -103,17 +103,18 @@ static double rainbow(const struct direction *d, double tau, int eighths, struct
 }
 
 /* Two rays that meet on an axis off-centre; plus is the one whose phase grows with the distance from it. */
-static double glory(const struct direction *d, int back, const struct ray *plus, const struct ray *minus, struct plus_glory *out)
+static double glory(const struct direction *d, int back, const struct ray *plus, const struct ray *minus,
+                    struct goa_plus_glory *out)
 {
-	double complex path = order_path(d->p, d->m, plus->sin_i), other = order_path(d->p, d->m, minus->sin_i);
+	double complex path = debye_order_path(d->p, d->m, plus->sin_i), other = debye_order_path(d->p, d->m, minus->sin_i);
 	double z = fmax(creal(path - other) / 2, 0), ratio = d->sine > 0 ? z / d->sine : plus->sin_i;
 	double complex half[2][2];      /* [plus, minus][(S1+S2)/2, (S1-S2)/2] */
-	*out = (struct plus_glory){ .angle = d->angle, .p = d->p, .back = back, .path = creal(path + other) / 2, .z = z,
+	*out = (struct goa_plus_glory){ .angle = d->angle, .p = d->p, .back = back, .path = creal(path + other) / 2, .z = z,
 		.u = (plus->sin_i + minus->sin_i) / 2, .fade = cimag(path + other) / 2 };
 	for (int k = 0; k < 2; k++) {
 		const struct ray *r = k ? minus : plus;
 		double complex f[2];
-		order_amplitude(d->p, d->m, r->sin_i, 0, f);
+		debye_order_amplitude(d->p, d->m, r->sin_i, 0, f);
 		double complex scale =
 		    -sqrt(r->sin_i * r->cos_i / r->slope * M_PI_2 * ratio) * eighth(k ? r->eighths - 1 : r->eighths + 1);
 		half[k][0] = scale * (f[0] + f[1]) / 2;
@@ -136,7 +137,7 @@ static double spread(const struct ray *r)
 static int faint(const struct direction *d, const struct ray *r)
 {
 	double complex f[2];
-	order_amplitude(d->p, d->m, r->sin_i, 0, f);
+	debye_order_amplitude(d->p, d->m, r->sin_i, 0, f);
 	return !((cabs(f[0]) + cabs(f[1])) * spread(r) >= NOTHING);
 }
 
@@ -147,12 +148,12 @@ static void keep(struct direction *d, const struct ray *r, double from)
 	int k = d->n++;
 	d->found[k].ray = *r;
 	d->found[k].from = from;
-	order_terms(d->p, d->m, r->sin_i, d->theta * (M_PI / 180), r->sigma, r->axial, &d->found[k].terms);
+	debye_order_terms(d->p, d->m, r->sin_i, d->theta * (M_PI / 180), r->sigma, r->axial, &d->found[k].terms);
 }
 
 /* The other ray of a glory, if this direction is near an axis and there is one. Returns the size from which rays do without. */
 static double find_glory(struct direction *d, const struct branch *b, int side, int turns, const struct ray *r,
-			 struct plus_rays *out, int *failed)
+			 struct goa_plus_rays *out, int *failed)
 {
 	double rest = 180 - d->theta, front = d->theta < 90, near = fmin(d->theta, rest) * (M_PI / 180);
 	int own = front == d->p % 2;    /* the axis of the central ray */
@@ -162,7 +163,7 @@ static double find_glory(struct direction *d, const struct branch *b, int side, 
 	if (own && turns == 0 && b->central)
 		return 0;
 	int plus = front ? r->sigma > 0 : r->sigma < 0;
-	struct plus_glory g;
+	struct goa_plus_glory g;
 	double from = plus ? glory(d, !front, r, &other, &g) : glory(d, !front, &other, r, &g);
 	if (from < LEAST_SIZE)
 		return 0;
@@ -176,7 +177,7 @@ static double find_glory(struct direction *d, const struct branch *b, int side, 
 }
 
 /* All of one order in one direction. Returns 0, or -1 when memory ran out. */
-static int gather(struct direction *d, struct plus_rays *out)
+static int gather(struct direction *d, struct goa_plus_rays *out)
 {
 	double n = creal(d->m);
 	struct branch branch[2];
@@ -208,7 +209,7 @@ static int gather(struct direction *d, struct plus_rays *out)
 				int whole = d->p % 2 ? turns + (d->p - 1) / 2 : turns - (sigma - d->p + 1) / 2;
 				if (grow(&out->rainbow, out->rainbows, sizeof *out->rainbow))
 					return -1;
-				struct plus_rainbow *pair = &out->rainbow[out->rainbows++];
+				struct goa_plus_rainbow *pair = &out->rainbow[out->rainbows++];
 				from = rainbow(d, tau, 4 * whole - 2 * (d->p - 1) - sigma + 1, pair);
 				if (from < LEAST_SIZE) {
 					from = 0;
@@ -222,10 +223,10 @@ static int gather(struct direction *d, struct plus_rays *out)
 	return failed ? -1 : 0;
 }
 
-static void put(struct plus_packet *k, int lane, const struct direction *d, int i)
+static void put(struct goa_plus_packet *k, int lane, const struct direction *d, int i)
 {
 	const struct ray *r = &d->found[i].ray;
-	const struct order_terms *t = &d->found[i].terms;
+	const struct debye_order_terms *t = &d->found[i].terms;
 	k->u[lane] = r->sin_i;
 	k->path[lane] = creal(t->path) * M_2_PI;
 	k->fade[lane] = cimag(t->path);
@@ -253,11 +254,11 @@ static void put(struct plus_packet *k, int lane, const struct direction *d, int 
 	}
 }
 
-int plus_rays_find(double complex m, int n, const double *theta, struct plus_rays *out)
+int goa_plus_rays_find(double complex m, int n, const double *theta, struct goa_plus_rays *out)
 {
-	int blocks = (n + PLUS_WIDTH - 1) / PLUS_WIDTH;
+	int blocks = (n + GOA_WIDTH - 1) / GOA_WIDTH;
 	size_t used = 0, room = 0;
-	struct direction *d = malloc(PLUS_WIDTH * sizeof *d);
+	struct direction *d = malloc(GOA_WIDTH * sizeof *d);
 	memset(out, 0, sizeof *out);
 	out->n = n;
 	out->theta = malloc((size_t)(n ? n : 1) * sizeof *out->theta);
@@ -265,15 +266,15 @@ int plus_rays_find(double complex m, int n, const double *theta, struct plus_ray
 	out->edge = malloc((size_t)(blocks ? blocks : 1) * sizeof *out->edge);
 	if (!d || !out->theta || !out->first || !out->edge)
 		goto no_memory;
-	edge_aim(n, theta, out->edge);
+	goa_plus_edge_aim(n, theta, out->edge);
 	memcpy(out->theta, theta, (size_t)n * sizeof *theta);
 	for (int b = 0; b < blocks; b++) {
-		int lanes = n - b * PLUS_WIDTH < PLUS_WIDTH ? n - b * PLUS_WIDTH : PLUS_WIDTH;
+		int lanes = n - b * GOA_WIDTH < GOA_WIDTH ? n - b * GOA_WIDTH : GOA_WIDTH;
 		out->first[b] = used;
-		for (int p = 0; p <= EDGE_ORDERS; p++) {
+		for (int p = 0; p <= GOA_PLUS_ORDERS; p++) {
 			int most = 0;
 			for (int k = 0; k < lanes; k++) {
-				int angle = b * PLUS_WIDTH + k;
+				int angle = b * GOA_WIDTH + k;
 				d[k].m = m;
 				d[k].angle = angle;
 				d[k].p = p;
@@ -285,13 +286,13 @@ int plus_rays_find(double complex m, int n, const double *theta, struct plus_ray
 			}
 			if (used + (size_t)most > room) {
 				room = 2 * room + (size_t)most;
-				struct plus_packet *more = realloc(out->packet, room * sizeof *more);
+				struct goa_plus_packet *more = realloc(out->packet, room * sizeof *more);
 				if (!more)
 					goto no_memory;
 				out->packet = more;
 			}
 			for (int i = 0; i < most; i++) {
-				struct plus_packet *k = &out->packet[used++];
+				struct goa_plus_packet *k = &out->packet[used++];
 				memset(k, 0, sizeof *k);
 				k->p = p;
 				k->least = k->clearest = INFINITY;
@@ -310,11 +311,11 @@ int plus_rays_find(double complex m, int n, const double *theta, struct plus_ray
 	return 0;
 no_memory:
 	free(d);
-	plus_rays_free(out);
+	goa_plus_rays_free(out);
 	return -1;
 }
 
-void plus_rays_free(struct plus_rays *r)
+void goa_plus_rays_free(struct goa_plus_rays *r)
 {
 	free(r->theta);
 	free(r->first);

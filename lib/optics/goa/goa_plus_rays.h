@@ -9,23 +9,22 @@
 
 #include <stddef.h>
 
-#define PLUS_WIDTH 8
-#define PLUS_ABSORBED 25    /* e^-25 of a ray is nothing */
+#define GOA_PLUS_ABSORBED 25    /* e^-25 of a ray is nothing */
 
-/* Rays of one order at PLUS_WIDTH neighbouring angles; where an angle has none, f, g, h are 0. Phase: x path + quarters, in pi/2.
+/* Rays of one order at GOA_WIDTH neighbouring angles; where an angle has none, f, g, h are 0. Phase: x path + quarters, in pi/2.
  * Amplitude: -x spread, at most x^2/2, times what debye_order.h says, g being held where it outgrows f: 1/x is x/(x^2 + hold).
  * f .. h: S1 re, S1 im, S2 re, S2 im. */
-struct plus_packet {
-	double path[PLUS_WIDTH], quarters[PLUS_WIDTH], fade[PLUS_WIDTH], from[PLUS_WIDTH];
-	double u[PLUS_WIDTH], e[PLUS_WIDTH], spread[PLUS_WIDTH], hold[PLUS_WIDTH];
-	double f[4][PLUS_WIDTH], g[4][PLUS_WIDTH], h[4][PLUS_WIDTH];
+struct goa_plus_packet {
+	double path[GOA_WIDTH], quarters[GOA_WIDTH], fade[GOA_WIDTH], from[GOA_WIDTH];
+	double u[GOA_WIDTH], e[GOA_WIDTH], spread[GOA_WIDTH], hold[GOA_WIDTH];
+	double f[4][GOA_WIDTH], g[4][GOA_WIDTH], h[4][GOA_WIDTH];
 	double least, most;        /* u */
 	double clearest;           /* least fade */
 	int p, fades;              /* fades: any of these is absorbed */
 };
 
 /* The uniform (Airy) form of a rainbow: A and B the rays inside and outside of the rainbow's, complex on its dark side. */
-struct plus_rainbow {
+struct goa_plus_rainbow {
 	int angle, p;
 	double below, sine, u;                 /* sine of the angle, u of the rainbow's ray */
 	double path, zeta;                     /* in x and x^(2/3) */
@@ -35,7 +34,7 @@ struct plus_rainbow {
 };
 
 /* The uniform (Bessel) form of a glory. */
-struct plus_glory {
+struct goa_plus_glory {
 	int angle, p, back;
 	double below, path, z, u;
 	/* of (S1+S2)/2 and (S1-S2)/2, in x^(3/2): rays turned one way and the other, added and subtracted */
@@ -43,23 +42,23 @@ struct plus_glory {
 	double fade;
 };
 
-struct plus_rays {
+struct goa_plus_rays {
 	int n;                     /* angles */
 	double *theta;
-	size_t *first;             /* first packet of each PLUS_WIDTH angles, one more than there are such */
-	struct plus_packet *packet;
-	struct edge_packet *edge;  /* of the same angles */
+	size_t *first;             /* first packet of each GOA_WIDTH angles, one more than there are such */
+	struct goa_plus_packet *packet;
+	struct goa_plus_edge_packet *edge;  /* of the same angles */
 	int rainbows, glories;
-	struct plus_rainbow *rainbow;
-	struct plus_glory *glory;
+	struct goa_plus_rainbow *rainbow;
+	struct goa_plus_glory *glory;
 };
 
-/* plus_rays_find - for angles theta[n], degrees in [0, 180]. Returns 0, or -1 when memory ran out
+/* goa_plus_rays_find - for angles theta[n], degrees in [0, 180]. Returns 0, or -1 when memory ran out
  * (there is nothing to free then). */
-int plus_rays_find(double complex m, int n, const double *theta, struct plus_rays *out);
-void plus_rays_free(struct plus_rays *r);
+int goa_plus_rays_find(double complex m, int n, const double *theta, struct goa_plus_rays *out);
+void goa_plus_rays_free(struct goa_plus_rays *r);
 
-/* plus_rays_pairs - S1, S2 (+=) of the pairs, for the size and windows of an edge. */
-void plus_rays_pairs(const struct plus_rays *r, const struct edge *e, double complex *s1, double complex *s2);
+/* goa_plus_caustics_add - S1, S2 (+=) of the pairs, for the size and windows of an edge. */
+void goa_plus_caustics_add(const struct goa_plus_rays *r, const struct goa_plus_edge *e, double complex *s1, double complex *s2);
 
 #endif

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-void goa_fresnel(double complex m, double sin_i, double cos_i, double complex *r1, double complex *r2)
+void goa_rays_fresnel(double complex m, double sin_i, double cos_i, double complex *r1, double complex *r2)
 {
 	double complex ct;
 	if (cimag(m) == 0) {
@@ -31,7 +31,7 @@ double complex goa_chord(double complex m, const struct ray *r)
 	return CMPLX(creal(path), fmax(cimag(path), 0));
 }
 
-int goa_trace(double complex m, int order, const struct caustic *caustic, double theta, struct goa_beam *out)
+int goa_rays_trace(double complex m, int order, const struct caustic *caustic, double theta, struct goa_beam *out)
 {
 	struct ray ray[RAYS_MAX(GOA_ORDER_MAX)];
 	int n = 0;
@@ -41,7 +41,7 @@ int goa_trace(double complex m, int order, const struct caustic *caustic, double
 			const struct ray *r = &ray[k];
 			struct goa_beam *b = &out[n];
 			double complex r1, r2;
-			goa_fresnel(m, r->sin_i, r->cos_i, &r1, &r2);
+			goa_rays_fresnel(m, r->sin_i, r->cos_i, &r1, &r2);
 			double complex f1 = p ? 1 - r1 * r1 : r1, f2 = p ? 1 - r2 * r2 : r2;
 			for (int i = 1; i < p; i++) {
 				f1 *= -r1;
@@ -110,7 +110,7 @@ int goa_rays_find(double complex m, int order, const struct caustic *caustic, in
 		out->first[b] = used;
 		for (int lane = 0; lane < GOA_WIDTH && b * GOA_WIDTH + lane < n; lane++) {
 			double t = theta[b * GOA_WIDTH + lane];
-			int k = goa_trace(m, order, caustic, t, beam);
+			int k = goa_rays_trace(m, order, caustic, t, beam);
 			size_t end = out->first[b] + (size_t)k;
 			if (t < 90) {
 				double sine = sin(t * (M_PI / 180));

@@ -9,7 +9,6 @@
 #include <math.h>
 #include <stddef.h>
 
-#define GOA_WIDTH 8
 #define GOA_ABSORBED 40    /* e^-40 of a ray is nothing */
 
 /* A ray and what does not depend on size: its amplitude is -x sqrt(D) f exp(i x path). */
@@ -50,8 +49,8 @@ struct goa_cap {
 	double bend;          /* of the caustic */
 };
 
-/* goa_spread - sqrt(D), D = sin i cos i / (sin theta |Theta'|), as capped. */
-static inline double goa_spread(double x, const struct ray *r, const struct goa_cap *cap)
+/* goa_rays_spread - sqrt(D), D = sin i cos i / (sin theta |Theta'|), as capped. */
+static inline double goa_rays_spread(double x, const struct ray *r, const struct goa_cap *cap)
 {
 	if (r->p == 0)
 		return 0.5;
@@ -63,14 +62,14 @@ static inline double goa_spread(double x, const struct ray *r, const struct goa_
 	return sqrt(fmin(ratio, most) * r->cos_i / slope);
 }
 
-/* goa_fresnel - amplitudes R_1 (perpendicular), R_2 (parallel); c_t = sqrt(1 - sin^2 i/m^2), Im c_t >= 0. */
-void goa_fresnel(double complex m, double sin_i, double cos_i, double complex *r1, double complex *r2);
+/* goa_rays_fresnel - amplitudes R_1 (perpendicular), R_2 (parallel); c_t = sqrt(1 - sin^2 i/m^2), Im c_t >= 0. */
+void goa_rays_fresnel(double complex m, double sin_i, double cos_i, double complex *r1, double complex *r2);
 
 /* goa_chord - phase path of one chord over x. */
 double complex goa_chord(double complex m, const struct ray *r);
 
-/* goa_trace - all rays of order p <= order at theta (degrees), but those too faint to matter; returns how many. */
-int goa_trace(double complex m, int order, const struct caustic *caustic, double theta, struct goa_beam *out);
+/* goa_rays_trace - all rays of order p <= order at theta (degrees), but those too faint to matter; returns how many. */
+int goa_rays_trace(double complex m, int order, const struct caustic *caustic, double theta, struct goa_beam *out);
 
 /* goa_rays_find - for theta[n], degrees in [0, 180]. Returns 0, or -1 when memory ran out (there is nothing to free then). */
 int goa_rays_find(double complex m, int order, const struct caustic *caustic, int n, const double *theta, struct goa_rays *out);

@@ -8,6 +8,8 @@
 #ifndef OPTICS_RAYS_H
 #define OPTICS_RAYS_H
 
+#define GOA_WIDTH 8        /* neighbouring angles side by side, wherever rays are packed for loops */
+
 /* Most rays of order p that can share a direction. */
 #define RAYS_MAX(p) (2 * (p) + 8)
 

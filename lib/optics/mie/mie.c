@@ -21,8 +21,8 @@ int mie_terms(double x, double complex m)
 	/* Narrow resonances, below y, lift it by 1/chi_l^2, but by no more than absorption, which broadens them: < 1e-32 without any. */
 	double t = 12;
 	if (broad > 1e-18) {
-		double fall = (36 - log(broad)) / 1.89;
-		t = lane_cbrt(fall * fall);
+		double width = (36 - log(broad)) / 1.89;
+		t = lane_cbrt(width * width);
 	}
 	double y = sqrt(norm2(m)) * x + 2, most = x + t * edge + 10, narrow = y < most ? y : most;
 	return (int)(n > narrow ? n : narrow) + 1;
@@ -35,19 +35,19 @@ struct chunk {
 	double wave[4][1 + MIE_CHUNK + MIE_SPARE], sca[MIE_CHUNK + MIE_SPARE];
 };
 
-/* From so many terms on, what descends is computed twice, the second time chunk by chunk, and not kept in more memory than caches hold. */
+/* From so many terms on p is computed twice, the second time chunk by chunk: all of it would not fit into caches. */
 #define TWICE 16384
 
-/* Climb over orders l .. l + count - 1. */
-INLINE void climb_chunk(struct climb *k, const struct glass *g, const struct ratios *e, int with_p, int l, int count, int from_x,
-                        struct chunk *c)
+/* Upward over orders l .. l + count - 1. */
+INLINE void upward_chunk(struct upward *k, const struct constants *g, const struct downward_orders *e, int with_p, int l, int count,
+                         int from_x, struct chunk *c)
 {
-	struct climb own = *k;
+	struct upward own = *k;
 	c->psi[0] = own.psi;
 	c->chi[0] = own.chi;
 	c->p[0] = own.p;
 	for (int i = 1; i <= count; i++, l++) {
-		climb_to(&own, g, with_p, l, 2.0 * l - 1, from_x, from_x ? e->x[l - 1] : 0);
+		upward_to(&own, g, with_p, l, 2.0 * l - 1, from_x, from_x ? e->x[l - 1] : 0);
 		c->psi[i] = own.psi;
 		c->chi[i] = own.chi;
 		if (with_p)
@@ -57,12 +57,13 @@ INLINE void climb_chunk(struct climb *k, const struct glass *g, const struct rat
 }
 
 /* p of the chunk from order l on, again; to n. */
-static struct trail descend_chunk(const struct descent *marks, const struct course *course, int l, int n, struct chunk *c)
+static struct psi_products psi_downward_chunk(const struct psi_downward *marks, const struct psi_course *course, int l, int n,
+                                              struct chunk *c)
 {
-	struct trail t = { c->size, c->re, c->im, l, n };
+	struct psi_products t = { .size = c->size, .re = c->re, .im = c->im, .base = l, .n = n };
 	int top = (course->most + 1) & ~1, end = l - 1 + MIE_CHUNK;
-	struct descent d = end < top ? marks[end / MIE_CHUNK] : descent_start();
-	descend(&d, course, end < top ? end : top, l - 1, &t, NULL);
+	struct psi_downward d = end < top ? marks[end / MIE_CHUNK] : psi_downward_start();
+	psi_downward(&d, course, end < top ? end : top, l - 1, &t, NULL);
 	return t;
 }
 
@@ -70,10 +71,11 @@ static struct trail descend_chunk(const struct descent *marks, const struct cour
 static int by_orders(const struct mie_lanes *lanes, double x, double complex m, int n, int weighted,
                      void (*take)(const struct mie_lanes *, const struct mie_row *, void *), void *context)
 {
-	struct spheres s = { { x }, { creal(m) }, { cimag(m) }, { n }, n, cimag(m) > 0, mie_near(m) };
+	struct spheres s = { .x = { x }, .m_re = { creal(m) }, .m_im = { cimag(m) }, .terms = { n }, .most = n, .absorb = cimag(m) > 0,
+		.near = mie_near(m) };
 	int twice = s.absorb && !s.near && n >= TWICE;
-	double *room = malloc(((twice ? 3 : RATIOS) * ((size_t)n + 2) + MIE_SPARE) * sizeof *room);
-	struct descent *marks = twice ? malloc(((size_t)n / MIE_CHUNK + 2) * sizeof *marks) : NULL;
+	double *room = malloc(((twice ? 3 : DOWNWARD_ARRAYS) * ((size_t)n + 2) + MIE_SPARE) * sizeof *room);
+	struct psi_downward *marks = twice ? malloc(((size_t)n / MIE_CHUNK + 2) * sizeof *marks) : NULL;
 	struct chunk c;
 	if (!room || (twice && !marks)) {
 		free(room);
@@ -82,24 +84,25 @@ static int by_orders(const struct mie_lanes *lanes, double x, double complex m, 
 	}
 	for (int i = 0; i < 4; i++)
 		c.wave[i][0] = 0;
-	struct ratios e = ratios_of(&s, room, marks);
-	struct glass g = glass_of(s.absorb, x, creal(m), cimag(m), e.beyond[0], n);
+	struct downward_orders e = downward_all(&s, room, marks);
+	const struct constants g = constants_of(s.absorb, x, creal(m), cimag(m), e.beyond[0], n);
 	int with_p = !s.absorb && !s.near;
-	struct climb k = climb_start(&g, with_p);
+	struct upward k = upward_start(&g, with_p);
 	for (int l = 1, count; l <= n; l += count) {
 		count = n + 1 - l < MIE_CHUNK ? n + 1 - l : MIE_CHUNK;
 		if (l + count > x)
-			climb_chunk(&k, &g, &e, with_p, l, count, 1, &c);
+			upward_chunk(&k, &g, &e, with_p, l, count, 1, &c);
 		else if (with_p)
-			climb_chunk(&k, &g, &e, 1, l, count, 0, &c);
+			upward_chunk(&k, &g, &e, 1, l, count, 0, &c);
 		else
-			climb_chunk(&k, &g, &e, 0, l, count, 0, &c);
+			upward_chunk(&k, &g, &e, 0, l, count, 0, &c);
 		if (twice)
-			e.p = descend_chunk(marks, &e.course, l, n, &c);
+			e.p = psi_downward_chunk(marks, &e.course, l, n, &c);
 		int at = l - e.p.base;
-		struct mie_row row = { s.absorb, s.near, l, count, weighted, x, creal(m), cimag(m), e.beyond[0], c.psi, c.chi, c.p,
-			e.x + l, e.y_re + l, e.y_im + l, e.p.size + at, e.p.re + at, e.p.im + at,
-			c.wave[0] + 1, c.wave[1] + 1, c.wave[2] + 1, c.wave[3] + 1, c.sca };
+		struct mie_row row = { .absorbs = s.absorb, .near = s.near, .first = l, .count = count, .weighted = weighted,
+			.x = x, .m_re = creal(m), .m_im = cimag(m), .beyond = e.beyond[0], .psi = c.psi, .chi = c.chi, .p = c.p,
+			.ex = e.x + l, .er = e.y_re + l, .ei = e.y_im + l, .size = e.p.size + at, .re = e.p.re + at, .im = e.p.im + at,
+			.a_re = c.wave[0] + 1, .a_im = c.wave[1] + 1, .b_re = c.wave[2] + 1, .b_im = c.wave[3] + 1, .sca = c.sca };
 		lanes->waves(&row);
 		take(lanes, &row, context);
 		for (int i = 0; i < 4; i++)
@@ -132,12 +135,12 @@ int mie_coefficients(double x, double complex m, int n, double complex *a, doubl
 
 static void take_sums(const struct mie_lanes *lanes, const struct mie_row *r, void *context) { lanes->sums(r, context); }
 
-int mie_alone(const struct mie_lanes *lanes, double x, double complex m, int n, struct efficiencies *q, double *error)
+int mie_one(const struct mie_lanes *lanes, double x, double complex m, int n, struct efficiencies *q, double *error)
 {
 	struct mie_sums sums = { 0 };
 	int bad = by_orders(lanes, x, m, n, 1, take_sums, &sums);
-	*q = mie_of_sums(x, cimag(m) == 0, &sums);
-	*error = mie_error_of_sums(x, cimag(m) == 0, &sums);
+	*q = mie_sums_efficiencies(x, cimag(m) == 0, &sums);
+	*error = mie_sums_error(x, cimag(m) == 0, &sums);
 	return bad;
 }
 
@@ -152,7 +155,7 @@ int mie_lossless(int n, const double complex *a, const double complex *b)
 	return 1;
 }
 
-struct efficiencies mie_of_sums(double x, int lossless, const struct mie_sums *s)
+struct efficiencies mie_sums_efficiencies(double x, int lossless, const struct mie_sums *s)
 {
 	double sca = lossless || s->sca > s->ext ? s->ext : s->sca;    /* greater by rounding alone: Re a >= |a|^2 */
 	struct efficiencies q;
@@ -164,7 +167,7 @@ struct efficiencies mie_of_sums(double x, int lossless, const struct mie_sums *s
 	return q;
 }
 
-double mie_error_of_sums(double x, int lossless, const struct mie_sums *s)
+double mie_sums_error(double x, int lossless, const struct mie_sums *s)
 {
 	/* The largest coefficient is about (4/9) |m-1| x^3 where x is small, |m-1| x where it is large and m near 1; of all, the sum of
 	 * (2l+1) |a|^2 tells: 3 |a_1|^2 or about x^2 times the largest. */
@@ -204,6 +207,6 @@ struct efficiencies mie_efficiencies(double x, int lossless, int n, const double
 	struct mie_sums sums;
 	mie_sums_of(lossless, n, a, b, &sums);
 	if (error)
-		*error = mie_error_of_sums(x, lossless, &sums);
-	return mie_of_sums(x, lossless, &sums);
+		*error = mie_sums_error(x, lossless, &sums);
+	return mie_sums_efficiencies(x, lossless, &sums);
 }

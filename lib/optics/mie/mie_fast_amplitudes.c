@@ -2,9 +2,9 @@
 
 #include <stdlib.h>
 
-struct series *mie_series(int n, const double complex *a, const double complex *b)
+struct legendre_series *mie_fast_amplitudes_new(int n, const double complex *a, const double complex *b)
 {
-	double (*c)[SERIES] = malloc(((size_t)n + 1) * sizeof *c);
+	double (*c)[LEGENDRE_SERIES_SUMS] = malloc(((size_t)n + 1) * sizeof *c);
 	if (!c)
 		return NULL;
 	double complex x1 = 0, x2 = 0;
@@ -18,20 +18,21 @@ struct series *mie_series(int n, const double complex *a, const double complex *
 		c[k][2] = creal(s2);
 		c[k][3] = cimag(s2);
 	}
-	struct series *s = series_new(n, c);
+	struct legendre_series *s = legendre_series_new(n, c);
 	free(c);
 	return s;
 }
 
 #define BLOCK 1024
 
-void mie_series_at(const struct series *s, int ntheta, const double *theta, double complex *s1, double complex *s2)
+void mie_fast_amplitudes_at(const struct legendre_series *s, int ntheta, const double *theta,
+                            double complex *s1, double complex *s2)
 {
 #pragma omp parallel for schedule(static) if (ntheta > 16 * BLOCK)
 	for (int from = 0; from < ntheta; from += BLOCK) {
-		double v[BLOCK][SERIES];
+		double v[BLOCK][LEGENDRE_SERIES_SUMS];
 		int count = ntheta - from < BLOCK ? ntheta - from : BLOCK;
-		series_at(s, count, theta + from, v);
+		legendre_series_at(s, count, theta + from, v);
 		for (int i = 0; i < count; i++) {
 			s1[from + i] = CMPLX(v[i][0], v[i][1]);
 			s2[from + i] = CMPLX(v[i][2], v[i][3]);
@@ -39,14 +40,14 @@ void mie_series_at(const struct series *s, int ntheta, const double *theta, doub
 	}
 }
 
-int mie_series_pays(int n, size_t ntheta)
+int mie_fast_amplitudes_pays(int n, size_t ntheta)
 {
 	/* in units of a term at one angle, as measured with AVX-512: a series is begun, and costs per order and, more than sums, per angle */
 	double angles = (double)ntheta;
 	return n * angles > 4e5 + 1200.0 * n + 90 * angles;
 }
 
-int mie_enough(int n, const double complex *a, const double complex *b, double tolerance)
+int mie_terms_enough(int n, const double complex *a, const double complex *b, double tolerance)
 {
 	double all = 0, rest = 0;
 	if (tolerance <= 0)

@@ -8,22 +8,24 @@
 
 #include <stddef.h>
 
-/* mie_series - a series whose values are Re S1, Im S1, Re S2, Im S2, from a[n+1], b[n+1]; NULL when memory ran out.
+/* mie_fast_amplitudes_new - a series whose values are Re S1, Im S1, Re S2, Im S2, from a[n+1], b[n+1]; NULL when memory ran out.
  *
  * With tau_l = l(l+1) P_l - mu pi_l, pi_l = P_l' and the sums of Legendre polynomials for these, the coefficient of P_k in S1 is
  * (2k+1) (b_k k/(k+1) + x_k), that in S2 (2k+1) (a_k k/(k+1) + y_k), where, w_l = (2l+1)/(l(l+1)),
  *     x_k = w_(k+1) a_(k+1) - y_(k+1),    y_k = w_(k+1) b_(k+1) - x_(k+1),    x_n = y_n = 0 */
-struct series *mie_series(int n, const double complex *a, const double complex *b);
+struct legendre_series *mie_fast_amplitudes_new(int n, const double complex *a, const double complex *b);
 
-/* mie_series_at - S1, S2 at angles theta[ntheta] (degrees, [0, 180]), shared out among OpenMP threads where they are many. */
-void mie_series_at(const struct series *s, int ntheta, const double *theta, double complex *s1, double complex *s2);
+/* mie_fast_amplitudes_at - S1, S2 at angles theta[ntheta] (degrees, [0, 180]), shared out among OpenMP threads where they
+ * are many. */
+void mie_fast_amplitudes_at(const struct legendre_series *s, int ntheta, const double *theta,
+                            double complex *s1, double complex *s2);
 
-/* mie_series_pays - whether a series is expected to take less time than mie_amplitudes. */
-int mie_series_pays(int n, size_t ntheta);
+/* mie_fast_amplitudes_pays - whether a series is expected to take less time than mie_amplitudes. */
+int mie_fast_amplitudes_pays(int n, size_t ntheta);
 
-/* mie_enough - how many of n terms are enough for p within tolerance in L1 (half the integral of |dp| over the sphere): by
+/* mie_terms_enough - how many of n terms are enough for p within tolerance in L1 (half the integral of |dp| over the sphere): by
  * Schwarz's inequality no more than the root of the share that the others have in scattering, to first order. n where tolerance
  * is 0. */
-int mie_enough(int n, const double complex *a, const double complex *b, double tolerance);
+int mie_terms_enough(int n, const double complex *a, const double complex *b, double tolerance);
 
 #endif

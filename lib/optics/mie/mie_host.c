@@ -44,7 +44,7 @@ static double complex turned(double complex z) { return CMPLX(-cimag(z), creal(z
 static void ratios(double complex x, double complex m, int n, int near, double complex rise, double complex *ex, double complex *e)
 {
 	double complex y = m * x, inv_x = inverse(x), inv_y = inverse(y), at_x = 0, at_y = 0, d = 0;
-	int top_x = ratios_start(n, creal(x), cimag(x)), top_y = ratios_start(n, creal(y), cimag(y));
+	int top_x = ratio_downward_start(n, creal(x), cimag(x)), top_y = ratio_downward_start(n, creal(y), cimag(y));
 	for (int l = top_x > top_y ? top_x : top_y; l >= 1; l--) {
 		double k = 2.0 * l + 1;
 		at_x = -inverse(k * inv_x + at_x);
@@ -73,8 +73,8 @@ int mie_host_coefficients(double complex x, double complex m, int n, double comp
 	int near = mie_near(m), deep = 2 * cimag(x) >= DEEP;
 	double size = cabs(x);
 	double complex inv_x = inverse(x), inv_m = inverse(m), m_1 = CMPLX(creal(m) - 1, cimag(m));
-	double complex fall = -(m_1 * inv_m), c = fall * (1 + inv_m) * inv_x;    /* 1/m - 1, (1/m^2 - 1)/x */
-	ratios(x, m, n, near, fall * inv_x, ex, e);
+	double complex less = -(m_1 * inv_m), c = less * (1 + inv_m) * inv_x;    /* 1/m - 1, (1/m^2 - 1)/x */
+	ratios(x, m, n, near, less * inv_x, ex, e);
 	/* Outgoing waves: chi while it holds xi, and keeps real what is real for a real x; else xi. */
 	double complex psi_old = ccos(x), psi = csin(x), out_old = deep ? cexp(turned(x)) : -psi, out = deep ? -turned(out_old) : psi_old;
 	memset(a, 0, ((size_t)n + 1) * sizeof *a);
@@ -94,7 +94,7 @@ int mie_host_coefficients(double complex x, double complex m, int n, double comp
 			psi = next;
 		}
 		double complex ey = near ? ex[l] + e[l] : e[l], rest = (l + 1.0) * c, fa = ey * inv_m + rest + t, fb = ey * m + t;
-		double complex p = near ? e[l] * inv_m + ex[l] * fall + rest : ey * inv_m - ex[l] + rest;    /* f - psi_{l-1}/psi_l */
+		double complex p = near ? e[l] * inv_m + ex[l] * less + rest : ey * inv_m - ex[l] + rest;    /* f - psi_{l-1}/psi_l */
 		double complex q = near ? e[l] * m + ex[l] * m_1 : ey * m - ex[l];
 		double complex A = deep || outside || (near && norm2(p) < 1) ? p * psi : fa * psi - psi_old;
 		double complex B = deep || outside || (near && norm2(q) < 1) ? q * psi : fb * psi - psi_old;
@@ -135,7 +135,7 @@ struct efficiencies mie_host_efficiencies(double complex x, int n, const double 
 	out.abs = out.ext - out.sca;
 	if (error) {
 		struct mie_sums as_real = { .sca = out.sca * x2 / 2 };
-		*error = mie_error_of_sums(sqrt(x2), 0, &as_real) * fmax(1, (bulk_re * fabs(re) + bulk_im * im) / fabs(ext));
+		*error = mie_sums_error(sqrt(x2), 0, &as_real) * fmax(1, (bulk_re * fabs(re) + bulk_im * im) / fabs(ext));
 	}
 	return out;
 }

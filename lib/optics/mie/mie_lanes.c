@@ -37,45 +37,46 @@ INLINE void addends(const vec w[WEIGHTS], const vec *a, const vec *b, const vec 
 
 /* Orders [from, to] of a vector of spheres. */
 struct many {
-	struct glass g;
-	struct climb k;
+	struct constants g;
+	struct upward k;
 	vec sum[SUMS], old_a[2], old_b[2];
 };
 
-INLINE void orders(struct many *many, const struct ratios *e, int u, const double *const w[WEIGHTS], int absorb, int near, int from, int to,
-                   int from_x, int from_y)
+INLINE void orders(struct many *many, const struct downward_orders *e, int u, const double *const w[WEIGHTS], struct regime is, int from,
+                   int to)
 {
-	const int with_p = !absorb && !near;
+	const int with_p = !is.absorb && !is.near;
 	struct many m = *many;
 	for (int l = from; l <= to; l++) {
 		int i = l * UNROLL + u;
-		struct fallen f;
-		vec a[2], b[2], t[SUMS], weight[WEIGHTS];
+		struct downward f;
+		struct coefficients_of_order own;
+		vec t[SUMS], weight[WEIGHTS];
 		for (int j = 0; j < WEIGHTS; j++)
 			weight[j] = each(w[j][l]);
-		if (near || from_x)
+		if (is.near || is.from_x)
 			f.ex = e->x[i];
-		if (near || from_y)
+		if (is.near || is.from_y)
 			f.er = e->y_re[i];
-		if (absorb && (near || from_y))
+		if (is.absorb && (is.near || is.from_y))
 			f.ei = e->y_im[i];
-		if (absorb && !near) {
+		if (is.absorb && !is.near) {
 			f.size = e->p.size[i];
 			f.re = e->p.re[i];
 			f.im = e->p.im[i];
 		}
-		climb_to(&m.k, &m.g, with_p, w[L][l], w[W][l - 1], from_x, from_x ? e->x[i - UNROLL] : each(0));
-		waves_of(absorb, near, from_x, from_y, &m.g, weight[L], weight[W], &m.k, &f, a, b, &t[SCA]);
-		addends(weight, a, b, m.old_a, m.old_b, t);
+		upward_to(&m.k, &m.g, with_p, w[L][l], w[W][l - 1], is.from_x, is.from_x ? e->x[i - UNROLL] : each(0));
+		coefficients_of(is, &m.g, weight[L], weight[W], &m.k, &f, &own);
+		addends(weight, own.a, own.b, m.old_a, m.old_b, t);
 		m.sum[EXT] += t[EXT];
 		m.sum[ASYM] += t[ASYM];
 		m.sum[BACK_RE] = t[BACK_RE] - m.sum[BACK_RE];
 		m.sum[BACK_IM] = t[BACK_IM] - m.sum[BACK_IM];
-		if (absorb)
-			m.sum[SCA] += t[SCA];
+		if (is.absorb)
+			m.sum[SCA] += own.sca;
 		for (int c = 0; c < 2; c++) {
-			m.old_a[c] = a[c];
-			m.old_b[c] = b[c];
+			m.old_a[c] = own.a[c];
+			m.old_b[c] = own.b[c];
 		}
 	}
 	*many = m;
@@ -91,22 +92,22 @@ INLINE void spheres(struct mie_block *b, int first, const double *const w[WEIGHT
 		LANE(s.terms, i) = b->terms[first + i];
 		s.most = b->terms[first + i] > s.most ? b->terms[first + i] : s.most;
 	}
-	struct ratios e = ratios_of(&s, (vec *)b->room, NULL);
+	struct downward_orders e = downward_all(&s, (vec *)b->room, NULL);
 	for (int u = 0; u < UNROLL; u++) {
-		struct many m = { .g = glass_of(absorb, s.x[u], s.m_re[u], s.m_im[u], e.beyond[u], s.terms[u]) };
-		m.k = climb_start(&m.g, !absorb && !near);
+		struct many m = { .g = constants_of(absorb, s.x[u], s.m_re[u], s.m_im[u], e.beyond[u], s.terms[u]) };
+		m.k = upward_start(&m.g, !absorb && !near);
 		int x = e.from_x, y = near ? s.most + 1 : e.from_y, low = x < y ? x : y, high = x < y ? y : x;
-		orders(&m, &e, u, w, absorb, near, 1, low - 1, 0, 0);
+		orders(&m, &e, u, w, (struct regime){ absorb, near, 0, 0 }, 1, low - 1);
 		if (x < y)
-			orders(&m, &e, u, w, absorb, near, low, high - 1, 1, 0);
+			orders(&m, &e, u, w, (struct regime){ absorb, near, 1, 0 }, low, high - 1);
 		else if (!near)
-			orders(&m, &e, u, w, absorb, near, low, high - 1, 0, 1);
+			orders(&m, &e, u, w, (struct regime){ absorb, near, 0, 1 }, low, high - 1);
 		if (!near)
-			orders(&m, &e, u, w, absorb, near, high, s.most, 1, 1);
+			orders(&m, &e, u, w, (struct regime){ absorb, near, 1, 1 }, high, s.most);
 		for (int i = 0; i < LANES; i++) {
 			vec *q = m.sum;
-			b->sums[first + u * LANES + i] = (struct mie_sums){ LANE(&q[EXT], i), LANE(&q[SCA], i), LANE(&q[ASYM], i),
-				LANE(&q[BACK_RE], i), LANE(&q[BACK_IM], i) };
+			b->sums[first + u * LANES + i] = (struct mie_sums){ .ext = LANE(&q[EXT], i), .sca = LANE(&q[SCA], i),
+				.asym = LANE(&q[ASYM], i), .back_re = LANE(&q[BACK_RE], i), .back_im = LANE(&q[BACK_IM], i) };
 		}
 	}
 }
@@ -148,39 +149,40 @@ INLINE vec load(const double *p)
 
 INLINE void store(double *p, vec v) { memcpy(p, &v, sizeof v); }
 
-INLINE void row(const struct mie_row *r, int absorb, int near, int from_x, int from_y)
+INLINE void row(const struct mie_row *r, struct regime is)
 {
-	struct glass g = glass_of(absorb, each(r->x), each(r->m_re), each(r->m_im), each(r->beyond), each(INFINITY));
+	struct constants g = constants_of(is.absorb, each(r->x), each(r->m_re), each(r->m_im), each(r->beyond), each(INFINITY));
 	const int weighted = r->weighted;
 	for (int i = 0; i < r->count; i += LANES) {
-		struct climb k = { .psi_old = load(r->psi + i), .psi = load(r->psi + i + 1),
+		struct upward k = { .psi_old = load(r->psi + i), .psi = load(r->psi + i + 1),
 			.chi_old = load(r->chi + i), .chi = load(r->chi + i + 1) };
-		struct fallen f;
-		vec a[2], b[2], sca, w[WEIGHTS];
+		struct downward f;
+		struct coefficients_of_order own;
+		vec w[WEIGHTS];
 		weights(r->first + i, w);
-		if (!absorb && !near) {
+		if (!is.absorb && !is.near) {
 			k.p_old = load(r->p + i);
 			k.p = load(r->p + i + 1);
 			k.below = k.p_old * g.inv_re;
 		}
-		if (near || from_x)
+		if (is.near || is.from_x)
 			f.ex = load(r->ex + i);
-		if (near || from_y)
+		if (is.near || is.from_y)
 			f.er = load(r->er + i);
-		if (absorb && (near || from_y))
+		if (is.absorb && (is.near || is.from_y))
 			f.ei = load(r->ei + i);
-		if (absorb && !near) {
+		if (is.absorb && !is.near) {
 			f.size = load(r->size + i);
 			f.re = load(r->re + i);
 			f.im = load(r->im + i);
 		}
-		waves_of(absorb, near, from_x, from_y, &g, w[L], weighted ? w[W] : each(1), &k, &f, a, b, &sca);
-		store(r->a_re + i, a[0]);
-		store(r->a_im + i, a[1]);
-		store(r->b_re + i, b[0]);
-		store(r->b_im + i, b[1]);
-		if (absorb)
-			store(r->sca + i, sca);
+		coefficients_of(is, &g, w[L], weighted ? w[W] : each(1), &k, &f, &own);
+		store(r->a_re + i, own.a[0]);
+		store(r->a_im + i, own.a[1]);
+		store(r->b_re + i, own.b[0]);
+		store(r->b_im + i, own.b[1]);
+		if (is.absorb)
+			store(r->sca + i, own.sca);
 	}
 }
 
@@ -188,13 +190,13 @@ INLINE void row_of(const struct mie_row *r, int absorb, int near)
 {
 	int last = r->first + r->count - 1, from_x = r->x <= last, from_y = !near && r->beyond <= last;
 	if (from_x && from_y)
-		row(r, absorb, near, 1, 1);
+		row(r, (struct regime){ absorb, near, 1, 1 });
 	else if (from_x)
-		row(r, absorb, near, 1, 0);
+		row(r, (struct regime){ absorb, near, 1, 0 });
 	else if (from_y)
-		row(r, absorb, near, 0, 1);
+		row(r, (struct regime){ absorb, near, 0, 1 });
 	else
-		row(r, absorb, near, 0, 0);
+		row(r, (struct regime){ absorb, near, 0, 0 });
 }
 
 static void waves_of_one(const struct mie_row *r)

@@ -29,8 +29,8 @@ struct mie_sums {
 void mie_sums_of(int lossless, int n, const double complex *a, const double complex *b, struct mie_sums *sums);
 
 /* Efficiencies, and the estimate of their error, of sums at size parameter x. */
-struct efficiencies mie_of_sums(double x, int lossless, const struct mie_sums *s);
-double mie_error_of_sums(double x, int lossless, const struct mie_sums *s);
+struct efficiencies mie_sums_efficiencies(double x, int lossless, const struct mie_sums *s);
+double mie_sums_error(double x, int lossless, const struct mie_sums *s);
 
 struct mie_block {
 	int absorbs, near;         /* some Im m > 0, else m_im is not looked at; all |m - 1| < MIE_NEAR */
@@ -51,7 +51,7 @@ struct mie_row {
 	int absorbs, near, first, count;
 	int weighted;                         /* coefficients times 2l+1, as the sums take them */
 	double x, m_re, m_im, beyond;
-	const double *psi, *chi, *p;          /* these from first - 1; and what follows as in mie_solve.h, struct ratios */
+	const double *psi, *chi, *p;          /* these from first - 1; and what follows as in mie_downward.h, struct downward_orders */
 	const double *ex, *er, *ei, *size, *re, *im;
 	double *a_re, *a_im, *b_re, *b_im;    /* before them stand those of first - 1, or 0 */
 	double *sca;                          /* (|a|^2 + |b|^2) times as much, absorbing spheres only */
@@ -83,8 +83,8 @@ CPU_DECLARE(const struct mie_lanes, mie_lanes);
 /* mie_lanes - the build for this processor, by cpu_level. */
 const struct mie_lanes *mie_lanes(void);
 
-/* mie_alone - a sphere of n terms by itself, its orders side by side: *q and *error as of mie_many, to the last bit; 0, or -1 when
+/* mie_one - a sphere of n terms by itself, its orders side by side: *q and *error as of mie_many, to the last bit; 0, or -1 when
  * memory ran out. */
-int mie_alone(const struct mie_lanes *lanes, double x, double complex m, int n, struct efficiencies *q, double *error);
+int mie_one(const struct mie_lanes *lanes, double x, double complex m, int n, struct efficiencies *q, double *error);
 
 #endif

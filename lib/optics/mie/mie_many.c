@@ -35,8 +35,8 @@ static int together(const struct mie_lanes *lanes, const struct item *item, int 
 	lanes->block(&b);
 	for (int i = 0; i < n; i++) {
 		int at = item[i].at;
-		q[at] = mie_of_sums(x[at], !b.absorbs, &b.sums[i]);
-		error[at] = mie_error_of_sums(x[at], !b.absorbs, &b.sums[i]);
+		q[at] = mie_sums_efficiencies(x[at], !b.absorbs, &b.sums[i]);
+		error[at] = mie_sums_error(x[at], !b.absorbs, &b.sums[i]);
 	}
 	free(b.room);
 	return 0;
@@ -46,7 +46,7 @@ int mie_many(int n, const double *x, const double complex *m, struct efficiencie
 {
 	const struct mie_lanes *lanes = mie_lanes();
 	if (n == 1)
-		return mie_alone(lanes, *x, *m, mie_terms(*x, *m), q, error);
+		return mie_one(lanes, *x, *m, mie_terms(*x, *m), q, error);
 	struct item *item = malloc(((size_t)n + 1) * sizeof *item);
 	if (!item)
 		return -1;
@@ -70,7 +70,7 @@ int mie_many(int n, const double *x, const double complex *m, struct efficiencie
 				first = last;
 			} else {
 				int at = item[first].at;
-				bad |= mie_alone(lanes, x[at], m[at], item[first].terms, &q[at], &error[at]);
+				bad |= mie_one(lanes, x[at], m[at], item[first].terms, &q[at], &error[at]);
 				first++;
 			}
 		}

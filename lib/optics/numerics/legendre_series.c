@@ -1,10 +1,10 @@
-#include "optics/numerics/legendre_series_kernels.h"
+#include "optics/numerics/legendre_series_lanes.h"
 
 #include <stdlib.h>
 
-const struct series_kernels *legendre_series_lanes(void)
+const struct legendre_series_lanes *legendre_series_lanes(void)
 {
-	const struct series_kernels *const build[CPU_LEVELS] = CPU_BUILDS(&legendre_series_lanes);
+	const struct legendre_series_lanes *const build[CPU_LEVELS] = CPU_BUILDS(&legendre_series_lanes);
 	return build[cpu_level()];
 }
 
@@ -19,27 +19,27 @@ static int steps_for(int n)
 	return two < three ? two : three;
 }
 
-struct series *series_new(int n, double (*c)[SERIES])
+struct legendre_series *legendre_series_new(int n, double (*c)[LEGENDRE_SERIES_SUMS])
 {
-	struct series *s = malloc(sizeof *s);
+	struct legendre_series *s = malloc(sizeof *s);
 	if (!s)
 		return NULL;
-	s->kernels = legendre_series_lanes();
+	s->lanes = legendre_series_lanes();
 	s->steps = steps_for(n);
-	s->grid = malloc(((size_t)s->steps + 2 * SERIES_PAD) * SERIES * sizeof *s->grid);
-	if (!s->grid || s->kernels->prepare(s, n, c)) {
-		series_free(s);
+	s->grid = malloc(((size_t)s->steps + 2 * LEGENDRE_SERIES_PAD) * LEGENDRE_SERIES_SUMS * sizeof *s->grid);
+	if (!s->grid || s->lanes->prepare(s, n, c)) {
+		legendre_series_free(s);
 		return NULL;
 	}
 	return s;
 }
 
-void series_at(const struct series *s, int count, const double *theta, double (*values)[SERIES])
+void legendre_series_at(const struct legendre_series *s, int count, const double *theta, double (*values)[LEGENDRE_SERIES_SUMS])
 {
-	s->kernels->at(s, count, theta, values);
+	s->lanes->at(s, count, theta, values);
 }
 
-void series_free(struct series *s)
+void legendre_series_free(struct legendre_series *s)
 {
 	if (s)
 		free(s->grid);

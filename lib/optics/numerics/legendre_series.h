@@ -7,18 +7,18 @@
 #ifndef OPTICS_LEGENDRE_SERIES_H
 #define OPTICS_LEGENDRE_SERIES_H
 
-#define SERIES 4      /* evaluated together: the real and imaginary parts of two amplitudes */
+#define LEGENDRE_SERIES_SUMS 4    /* evaluated together: the real and imaginary parts of two amplitudes */
 
-struct series;
+struct legendre_series;
 
-/* series_new - have sum_k c[k][.] P_k(cos theta), k = 0 .. n, n >= 0, ready to be asked for; c[n+1] is overwritten.
+/* legendre_series_new - have sum_k c[k][.] P_k(cos theta), k = 0 .. n, n >= 0, ready to be asked for; c[n+1] is overwritten.
  * Returns NULL when memory ran out. */
-struct series *series_new(int n, double (*c)[SERIES]);
+struct legendre_series *legendre_series_new(int n, double (*c)[LEGENDRE_SERIES_SUMS]);
 
-/* series_at - values[count] at angles theta[count] (degrees, [0, 180]). The error is some 1e-15 of what the series reaches where all
- * terms add up, at every angle. An angle's value does not depend on the others, nor does it on the processor. */
-void series_at(const struct series *s, int count, const double *theta, double (*values)[SERIES]);
+/* legendre_series_at - values[count] at angles theta[count] (degrees, [0, 180]). The error is some 1e-15 of what the series reaches
+ * where all terms add up, at every angle. An angle's value does not depend on the others, nor does it on the processor. */
+void legendre_series_at(const struct legendre_series *s, int count, const double *theta, double (*values)[LEGENDRE_SERIES_SUMS]);
 
-void series_free(struct series *s);
+void legendre_series_free(struct legendre_series *s);
 
 #endif

@@ -1,5 +1,5 @@
-/* The inner loops of series, compiled for each processor: BUILD names what comes out. */
-#include "optics/numerics/legendre_series_kernels.h"
+/* The loops of legendre_series, compiled for each processor: BUILD names what comes out. */
+#include "optics/numerics/legendre_series_lanes.h"
 
 #include "optics/numerics/kern/fourier.h"
 #include "optics/numerics/kern/legendre.h"
@@ -8,7 +8,8 @@
 /* Cosines, each divided by the window's transform, to values on the grid. A sum of cosines at half-steps is a complex transform
  * of the same length of V_k = exp(i pi k/2M) (c_k - i c_{M-k})/2, whose first half are the even points and whose second the odd
  * ones, from the end (Makhoul 1980). re[0] and im[0] are zero. */
-static void cosines_to_grid(struct series *s, int n, const double *c, double b, double *wave, double *re[2], double *im[2])
+static void cosines_to_grid(struct legendre_series *s, int n, const double *c, double b, double *wave, double *re[2],
+                            double *im[2])
 {
 	int steps = s->steps;
 	fourier_waves(steps, wave);
@@ -26,9 +27,9 @@ static void cosines_to_grid(struct series *s, int n, const double *c, double b, 
 		}
 	}
 	int at = fourier(steps, wave, re, im);
-	for (int j = -SERIES_PAD; j < steps + SERIES_PAD; j++) {
+	for (int j = -LEGENDRE_SERIES_PAD; j < steps + LEGENDRE_SERIES_PAD; j++) {
 		int in = j < 0 ? -1 - j : j < steps ? j : 2 * steps - 1 - j, from = in % 2 ? steps - 1 - in / 2 : in / 2;
-		double *g = s->grid + 4 * (j + SERIES_PAD);
+		double *g = s->grid + 4 * (j + LEGENDRE_SERIES_PAD);
 		for (int i = 0; i < 2; i++) {
 			g[2 * i] = re[at][2 * from + i];
 			g[2 * i + 1] = im[at][2 * from + i];
@@ -36,7 +37,7 @@ static void cosines_to_grid(struct series *s, int n, const double *c, double b, 
 	}
 }
 
-static int prepare(struct series *s, int n, double (*c)[SERIES])
+static int prepare(struct legendre_series *s, int n, double (*c)[LEGENDRE_SERIES_SUMS])
 {
 	double b = M_PI * TAPS * (1 - n / (2.0 * s->steps));
 	int rows = n / 2 + 1;
@@ -57,15 +58,15 @@ static int prepare(struct series *s, int n, double (*c)[SERIES])
 	return failed ? -1 : 0;
 }
 
-static void at(const struct series *s, int count, const double *theta, double (*values)[SERIES])
+static void at(const struct legendre_series *s, int count, const double *theta, double (*values)[LEGENDRE_SERIES_SUMS])
 {
 	double poly[DEGREE + 1][TAPS];
 	memcpy(poly, s->poly, sizeof poly);
 	for (int i = 0; i < count; i++) {
 		int j = (int)floor(theta[i] * s->steps / 180 - 0.5);
 		double f = fma(theta[i], s->steps, -180 * (j + 0.5)) / 180;    /* exact but for the last rounding */
-		window_sum(poly, f, s->grid + 4 * (j + SERIES_PAD - (TAPS / 2 - 1)), values[i]);
+		window_sum(poly, f, s->grid + 4 * (j + LEGENDRE_SERIES_PAD - (TAPS / 2 - 1)), values[i]);
 	}
 }
 
-const struct series_kernels BUILD = { prepare, at, fourier_waves, fourier };
+const struct legendre_series_lanes BUILD = { prepare, at, fourier_waves, fourier };

@@ -1,24 +1,24 @@
 #include "optics/numerics/nufft.h"
 
 #include "optics/numerics/gauss.h"
-#include "optics/numerics/legendre_series_kernels.h"
+#include "optics/numerics/legendre_series_lanes.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define ROW (2 * SPECTRUM_SUMS)
-#define PAIRS (SPECTRUM_SUMS / 2)    /* transformed together */
+#define ROW (2 * NUFFT_SUMS)
+#define PAIRS (NUFFT_SUMS / 2)    /* transformed together */
 #define NODES (2 * GAUSS)
 
 /* The kernel's transform at frequencies 0 .. n - 1 of a grid of that size, by Gauss-Legendre in two halves. */
 static void transform_of_kernel(int size, int n, double *out)
 {
-	const double half = SPECTRUM_TAPS / 2.0;
+	const double half = NUFFT_TAPS / 2.0;
 	double now[NODES], before[NODES], twice[NODES], w[NODES];
 	for (int i = 0; i < NODES; i++) {
 		double z = (i / GAUSS + 0.5 + gauss_node[i % GAUSS] / 2) / 2, c = cos(2 * M_PI * half * z / size);
-		w[i] = gauss_weight[i % GAUSS] / 2 * half * exp(SPECTRUM_SHAPE * (sqrt((1 - z) * (1 + z)) - 1));
+		w[i] = gauss_weight[i % GAUSS] / 2 * half * exp(NUFFT_SHAPE * (sqrt((1 - z) * (1 + z)) - 1));
 		now[i] = 1;
 		before[i] = c;
 		twice[i] = 2 * c;
@@ -36,26 +36,26 @@ static void transform_of_kernel(int size, int n, double *out)
 }
 
 /* Room for a grid of that size; what was there before is enough where it was no smaller. 0, or -1 when memory ran out. */
-static int make_room(struct spectrum *s, int size)
+static int make_room(struct nufft *s, int size)
 {
-	size_t rows = (size_t)size + 2 * (SPECTRUM_TAPS - 1);
+	size_t rows = (size_t)size + 2 * (NUFFT_TAPS - 1);
 	if (size <= s->most)
 		return 0;
-	spectrum_free(s);
+	nufft_free(s);
 	s->room = malloc(11 * (size_t)size * sizeof *s->room);
 	s->memory = malloc(rows * ROW * sizeof *s->memory);
 	if (!s->room || !s->memory) {
-		spectrum_free(s);
+		nufft_free(s);
 		return -1;
 	}
 	s->most = size;
 	return 0;
 }
 
-int spectrum_set(struct spectrum *s, int n, const double *const coefficient[SPECTRUM_SUMS])
+int nufft_set(struct nufft *s, int n, const double *const coefficient[NUFFT_SUMS])
 {
-	const struct series_kernels *lanes = legendre_series_lanes();
-	int size = 16, edge = SPECTRUM_TAPS - 1;
+	const struct legendre_series_lanes *lanes = legendre_series_lanes();
+	int size = 16, edge = NUFFT_TAPS - 1;
 	while (size < n + n / 2)
 		size *= 2;
 	if (make_room(s, size))
@@ -82,7 +82,7 @@ int spectrum_set(struct spectrum *s, int n, const double *const coefficient[SPEC
 		for (int j = 0; j < size; j++)
 			for (int i = 0; i < 2; i++) {
 				s->row[ROW * (size_t)j + 2 * (size_t)pair + (size_t)i] = re[there][2 * j + i];
-				s->row[ROW * (size_t)j + SPECTRUM_SUMS + 2 * (size_t)pair + (size_t)i] = im[there][2 * j + i];
+				s->row[ROW * (size_t)j + NUFFT_SUMS + 2 * (size_t)pair + (size_t)i] = im[there][2 * j + i];
 			}
 	}
 	memcpy(s->memory, s->row + (size_t)(size - edge) * ROW, (size_t)edge * ROW * sizeof *s->row);
@@ -90,9 +90,9 @@ int spectrum_set(struct spectrum *s, int n, const double *const coefficient[SPEC
 	return 0;
 }
 
-void spectrum_free(struct spectrum *s)
+void nufft_free(struct nufft *s)
 {
 	free(s->memory);
 	free(s->room);
-	*s = (struct spectrum){ 0 };
+	*s = (struct nufft){ 0 };
 }

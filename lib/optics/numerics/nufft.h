@@ -7,22 +7,22 @@
 #ifndef OPTICS_NUFFT_H
 #define OPTICS_NUFFT_H
 
-#define SPECTRUM_TAPS 8
-#define SPECTRUM_SHAPE 16.3        /* b */
-#define SPECTRUM_SUMS 4            /* different sums side by side */
+#define NUFFT_TAPS 8
+#define NUFFT_SHAPE 16.3        /* b */
+#define NUFFT_SUMS 4            /* different sums side by side */
 
 /* Values of the sums on a grid of size angles (a power of 2), over one turn; in each row the real parts of all, then the
- * imaginary ones. SPECTRUM_TAPS - 1 rows are repeated at the end, and before the beginning. */
-struct spectrum {
+ * imaginary ones. NUFFT_TAPS - 1 rows are repeated at the end, and before the beginning. */
+struct nufft {
 	int size;
 	double *row;                   /* row[8 j + ..] belongs to 2 pi j/size; j may be -7 .. size + 6 */
 	double *memory, *room;         /* kept from one transform to the next */
 	int most;
 };
 
-/* spectrum_set - from c[n] of each sum: coefficient[sum][2 k], [2 k + 1], where k stands for the frequency k - n/2. NULL sums are
+/* nufft_set - from c[n] of each sum: coefficient[sum][2 k], [2 k + 1], where k stands for the frequency k - n/2. NULL sums are
  * 0. s is zero-initialised, or from a transform before. Returns 0, or -1 when memory ran out. */
-int spectrum_set(struct spectrum *s, int n, const double *const coefficient[SPECTRUM_SUMS]);
-void spectrum_free(struct spectrum *s);
+int nufft_set(struct nufft *s, int n, const double *const coefficient[NUFFT_SUMS]);
+void nufft_free(struct nufft *s);
 
 #endif

@@ -35,17 +35,17 @@ static void mirror(int n, double *theta)
 		theta[i] = 180 - theta[n - 1 - i];
 }
 
-int angles_count(double x)
+int angle_grid_count(double x)
 {
 	return 2 * half(x, NULL) - 1;
 }
 
-void angles_grid(double x, double *theta)
+void angle_grid(double x, double *theta)
 {
 	mirror(2 * half(x, theta) - 1, theta);
 }
 
-void angles_equal(int n, double *theta)
+void angle_grid_equal(int n, double *theta)
 {
 	for (int i = 0; i < (n + 1) / 2; i++)
 		theta[i] = 180.0 * i / (n - 1);
@@ -57,7 +57,7 @@ void angles_equal(int n, double *theta)
 #define FINE_STEP 0.25      /* degrees */
 #define LONGEST 1.0         /* interval kept, degrees */
 
-long angles_fine(double x, double tolerance, double *theta)
+long angle_grid_fine(double x, double tolerance, double *theta)
 {
 	double inside = fmin(FINE_STEP, 180 / (FINE * x)) * fmin(1, sqrt(tolerance / TYPICAL)), t = 0;
 	/* Equal shares of the error want intervals like theta^(2/3) in the diffraction rings, till interference takes over. */
@@ -159,7 +159,7 @@ static long stride(const struct thin *t, double share, long *keep, double *error
 	return kept;
 }
 
-long angles_thin(long n, const double *theta, int nwaves, double *const *p, double tolerance, long *keep)
+long angle_grid_thin(long n, const double *theta, int nwaves, double *const *p, double tolerance, long *keep)
 {
 	struct thin t = { n, theta, nwaves, p, NULL, NULL };
 	double *room = malloc(((size_t)nwaves + 1) * (size_t)n * sizeof *room);

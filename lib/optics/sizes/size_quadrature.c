@@ -21,7 +21,7 @@ struct run {
 	long steps;                    /* of level 0 */
 };
 
-struct subsizes {
+struct size_quadrature {
 	int n, nruns;
 	double scale;
 	struct cell *cell;
@@ -128,17 +128,17 @@ static double radius_at(double scale, double v, double above)
 	return exp(y);
 }
 
-struct subsizes *subsizes_new(int n, const struct psd_class *c, double scale)
+struct size_quadrature *size_quadrature_new(int n, const struct psd_class *c, double scale)
 {
 	struct psd_class *sorted = malloc((size_t)n * sizeof *sorted);
-	struct subsizes *s = calloc(1, sizeof *s);
+	struct size_quadrature *s = calloc(1, sizeof *s);
 	if (s) {
 		s->cell = calloc((size_t)n, sizeof *s->cell);
 		s->run = calloc((size_t)n, sizeof *s->run);
 	}
 	if (!sorted || !s || !s->cell || !s->run) {
 		free(sorted);
-		subsizes_free(s);
+		size_quadrature_free(s);
 		return NULL;
 	}
 	for (int i = 0; i < n; i++)
@@ -168,7 +168,7 @@ struct subsizes *subsizes_new(int n, const struct psd_class *c, double scale)
 	return s;
 }
 
-void subsizes_free(struct subsizes *s)
+void size_quadrature_free(struct size_quadrature *s)
 {
 	if (!s)
 		return;
@@ -182,7 +182,7 @@ static long of_run(const struct run *r, int level)
 	return level ? r->steps << (level - 1) : r->steps + 1;
 }
 
-long subsizes_count(const struct subsizes *s, int level)
+long size_quadrature_count(const struct size_quadrature *s, int level)
 {
 	long n = 0;
 	for (int i = 0; i < s->nruns; i++)
@@ -190,7 +190,7 @@ long subsizes_count(const struct subsizes *s, int level)
 	return n;
 }
 
-void subsizes_at(const struct subsizes *s, int level, long k, double *radius, double *weight)
+void size_quadrature_at(const struct size_quadrature *s, int level, long k, double *radius, double *weight)
 {
 	const struct run *r = s->run;
 	for (; k >= of_run(r, level); r++)

@@ -11,17 +11,17 @@
  *
  * Integrals over it are sums by the trapezoidal rule in v, dv = dr sqrt(1 + (scale/r)^2): as in r above scale, where what a
  * sphere scatters oscillates with r, as in ln r below. */
-struct subsizes;
+struct size_quadrature;
 
-/* subsizes_new - for n >= 1 classes with lo < radius < hi, in any order; scale (um) > 0. NULL when memory ran out. */
-struct subsizes *subsizes_new(int n, const struct psd_class *c, double scale);
-void subsizes_free(struct subsizes *s);
+/* size_quadrature_new - for n >= 1 classes with lo < radius < hi, in any order; scale (um) > 0. NULL when memory ran out. */
+struct size_quadrature *size_quadrature_new(int n, const struct psd_class *c, double scale);
+void size_quadrature_free(struct size_quadrature *s);
 
-/* subsizes_count - sizes that level >= 0 brings, each level halving the steps; level 0 has at least 64 steps, and 2 a class. */
-long subsizes_count(const struct subsizes *s, int level);
+/* size_quadrature_count - sizes that level >= 0 brings, each level halving the steps; level 0 has at least 64 steps, and 2 a class. */
+long size_quadrature_count(const struct size_quadrature *s, int level);
 
-/* subsizes_at - the k-th of a level, 0 <= k < subsizes_count: radius (um) and weight. With I_0 = sum w f(r) over level 0, I_k =
+/* size_quadrature_at - the k-th of a level, 0 <= k < size_quadrature_count: radius (um) and weight. With I_0 = sum w f(r) over level 0, I_k =
  * I_(k-1)/2 + sum w f(r) over level k; I with f = 1 tends to the sum of the classes' weights. */
-void subsizes_at(const struct subsizes *s, int level, long k, double *radius, double *weight);
+void size_quadrature_at(const struct size_quadrature *s, int level, long k, double *radius, double *weight);
 
 #endif
