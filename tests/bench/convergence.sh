@@ -6,7 +6,7 @@
 out=$1
 bench=$(cd "$(dirname "$0")" && pwd)
 . "$bench/../support/media.sh"
-grains_setup
+clouds_setup
 continuum 2048
 for t in explicit fat-ray; do
 	departs 1000 $t 8 16

@@ -2,45 +2,9 @@
 # The film: its layers hold what they say, and parts of an image add up to its bytes.
 # shellcheck source=tests/support/lib.sh
 . "$(dirname "$0")/../support/lib.sh"
-export POCL_CACHE_DIR="$tmp/pocl"
-mkdir "$POCL_CACHE_DIR"
+# shellcheck source=tests/support/render.sh
+. "$top/tests/support/render.sh"
 
-# ---- media: isotropic particles in a cube of side 2 m
-
-printf '# radius:f64:um\tweight:f64:1\n1000\t1\n' | txttab -o one.psd
-# iso WAVELENGTH..: phase functions
-iso() {
-	awk -v list="$*" 'BEGIN { print "# wavelength:f64:um\ttheta:f64:deg\tp:f64:sr^-1"; n = split(list, w, " ")
-		for (l = 1; l <= n; l++) for (i = 0; i <= 180; i += 0.5) printf "%s\t%g\t%.10g\n", w[l], i, 1 / (4 * atan2(0, -1)) }' | txttab
-}
-# xsections C_EXT ALBEDO WAVELENGTH..: in um^2, growing with the wavelength's number
-xsections() {
-	awk -v c="$1" -v a="$2" -v list="$(shift 2; echo "$@")" 'BEGIN {
-		print "# wavelength:f64:um\tradius:f64:um\tc_ext:f64:um^2\tc_sca:f64:um^2"; n = split(list, w, " ")
-		for (l = 1; l <= n; l++) printf "%s\t1000\t%.10g\t%.10g\n", w[l], c * (1 + 0.1 * (l - 1)), c * (1 + 0.1 * (l - 1)) * a }' | txttab
-}
-# bake NAME C_EXT ALBEDO WAVELENGTH..: NAME.medium of 1e6 particles a m3; with C_EXT = 1e6 the extinction is 1/m
-bake() {
-	name=$1
-	shift
-	xsections "$@" >"$name.xsect"
-	shift 2
-	iso "$@" >"$name.phase"
-	medium-bake --xsect "$name.xsect" --phase "$name.phase" --psd one.psd --concentration 1e6/m3 --box 2m,2m,2m -o "$name.medium"
-}
-# grains NAME C_EXT ALBEDO WAVELENGTH..: of the same 20,000 particles
-particles --psd one.psd --count 2e4 --box 2m,2m,2m -o 20000.tab
-grains() {
-	name=$1
-	shift
-	xsections "$@" >"$name.xsect"
-	shift 2
-	iso "$@" >"$name.phase"
-	medium-bake --xsect "$name.xsect" --phase "$name.phase" --box 2m,2m,2m -o "$name.medium" 20000.tab
-}
-camera='camera = { position = [3.2, 2.4, 4.2]; target = [0.0, 0.0, 0.0]; fov = 34.0; resolution'
-# scene NAME MEDIUM PIXELS MORE
-scene() { echo "$camera = [$3, $3]; }; medium = { file = \"$2\"; }; $4" >"$1"; }
 # far NAME MEDIUM MORE: the cube's face from 1000 m, rays all but parallel; only its middle 1.745 m are seen
 far() {
 	echo "camera = { position = [0.0, 0.0, 1000.0]; target = [0.0, 0.0, 0.0]; fov = 0.1; resolution = [64, 64]; };
@@ -51,14 +15,15 @@ layer() {
 	oiiotool "$1" --ch "$2" --mulc 1e4 -d float -o layer.exr    # it prints six places
 	oiiotool --stats layer.exr | awk -v what="$3:" '$1 == "Stats" && $2 == what { print $3 / 1e4 }'
 }
-mean() { layer "$1" "$2" Avg; }
+average() { layer "$1" "$2" Avg; }
 most() { layer "$1" "$2" Max; }
-near() { awk -v a="$1" -v b="$2" -v e="$3" 'BEGIN { d = a - b; exit !(a ~ /[0-9]/ && d <= e && d >= -e) }'; }
 
-bake black 1e6 0 0.55
-bake white 1e6 1 0.55
-grains black-grains 4e8 0 0.55
-grains white-grains 4e8 1 0.55
+hg 0 >iso.phase
+for m in 'black 0' 'white 1'; do
+	cube "${m% *}.medium" 1e6 "${m#* }" iso.phase
+	dispersed 4e8 "${m#* }" 0.55 >grains.xsect
+	grains "${m% *}-grains.medium" 2e4 grains.xsect iso.phase
+done
 
 # ---- light by orders: what was not scattered is the black medium's image, path by path
 
@@ -75,7 +40,7 @@ for t in continuous explicit fat-ray grid; do
 		imgcmp --channels R,G,B --max 2e-6 sum.exr white.exr >diff.txt
 		ok $? "unscattered, single and multiple make up the image: $t${ground:+, ground}"
 		[ "$(most black.exr single.R) $(most black.exr multiple.R)" = '0 0' ] &&
-			near "$(mean white.exr multiple.G)" 0.1 0.09
+			near "$(average white.exr multiple.G)" 0.1 0.09
 		ok $? "a black medium scatters nothing, a white one does: $t${ground:+, ground}"
 	done
 done
@@ -84,8 +49,8 @@ far sun.scene white.medium 'lights = ( { type = "sun"; direction = [-1, 0, 0]; i
 vrender sun.scene --samples 64 -o sun.exr
 want=$(awk 'BEGIN { w = 0.872665; print (1 - exp(-2)) * exp(-1) * (exp(w) - exp(-w)) / 2 / w }')
 # 64^2 x 64 samples of spread below 0.3: standard error below 6e-4
-near "$(mean sun.exr single.G)" "$want" 0.0024
-ok $? "single scattering: $(mean sun.exr single.G), wanted $want"
+near "$(average sun.exr single.G)" "$want" 0.0024
+ok $? "single scattering: $(average sun.exr single.G), wanted $want"
 
 # ---- alpha and depth
 
@@ -100,11 +65,11 @@ done
 # 64^2 x 64 coins: standard error 6.7e-4
 far beer.scene black.medium ''
 vrender beer.scene --samples 64 -o beer.exr
-near "$(mean beer.exr A)" 0.8646647 0.003
-ok $? "alpha by Beer and Lambert: $(mean beer.exr A)"
+near "$(average beer.exr A)" 0.8646647 0.003
+ok $? "alpha by Beer and Lambert: $(average beer.exr A)"
 # from the face at 999 m: mean 1/s - L e^-sL / (1 - e^-sL), spread 0.54 m, standard error 1.1e-3 m
-near "$(mean beer.exr depth.Z)" 999.68696 0.005
-ok $? "mean depth of the first scattering: $(mean beer.exr depth.Z)"
+near "$(average beer.exr depth.Z)" 999.68696 0.005
+ok $? "mean depth of the first scattering: $(average beer.exr depth.Z)"
 scene aside.scene black.medium 8 ''
 sed -i 's/target = .0.0, 0.0, 0.0./target = [9.0, 9.0, 9.0]/' aside.scene
 vrender aside.scene --samples 4 -o aside.exr
@@ -123,7 +88,7 @@ spread() {
 	done | awk '{ s += $1 } END { print s / NR }'
 }
 vrender cube.scene --samples 256 --seed 1 -o long.exr
-of_one=$(mean long.exr variance.Y | awk '{ print $1 * 256 }')
+of_one=$(average long.exr variance.Y | awk '{ print $1 * 256 }')
 single=$(spread 1 24)
 # 55,296 differences, each squared: for a sample whose kurtosis is 20 the relative standard error is 1.9 %
 near "$(awk -v a="$of_one" -v b="$single" 'BEGIN { print a / b }')" 1 0.08
@@ -140,7 +105,9 @@ is 0 "$(most furnace1.exr variance.Y)" 'nor has a single sample'
 
 # ---- parts of an image
 
-grains three 4e8 0.97 0.45 0.55 0.65
+hg 0.1 0.45 0.55 0.65 >three.phase
+dispersed 4e8 0.97 0.45 0.55 0.65 >three.xsect
+grains three.medium 2e4 three.xsect three.phase
 full="lights = ( { type = \"environment\"; radiance = 0.3; }, { type = \"sun\"; direction = [-0.6, -1.0, -0.3]; irradiance = 2.0; angle = 10.0; },
 	{ type = \"sun\"; direction = [1, -1, 0]; irradiance = 1; } ); ground = { height = -1.2; albedo = 0.4; };"
 scene three.scene three.medium 24 "$full"
@@ -222,7 +189,12 @@ ok "$("$MOTES_BUILD/tests/unit/film" spectral.exr >got; echo $?)" "the wavelengt
 scene coloured.scene three.medium 24 'lights = ( { type = "sun"; direction = [-0.6, -1.0, -0.3]; irradiance = [3.0, 1.0, 0.2]; } );'
 vrender coloured.scene --samples 4 --spectral -o spectral.exr
 ok "$("$MOTES_BUILD/tests/unit/film" spectral.exr >got; echo $?)" "of a coloured light, by three wavelengths: $(cat got)"
-bake many 1e6 0.9 0.40 0.42 0.44 0.46 0.48 0.50 0.52 0.54 0.56 0.58 0.60
+many='0.40 0.42 0.44 0.46 0.48 0.50 0.52 0.54 0.56 0.58 0.60'
+# shellcheck disable=SC2086
+{
+	hg 0.3 $many >many.phase
+	cube many.medium 1e6 0.9 many.phase $many
+}
 scene many.scene many.medium 24 "$lights"
 vrender many.scene --samples 32 --spectral -o many.exr
 ok "$("$MOTES_BUILD/tests/unit/film" many.exr >got; echo $?)" "with paths that carry a part of them each too: $(cat got)"

@@ -5,7 +5,7 @@
 # shellcheck source=tests/support/render.sh
 . "$top/tests/support/render.sh"
 hg 0.8 0.45 0.55 0.65 >hg3.phase
-xsections 90000000 0.97 0.45 0.55 0.65 >three.xsect
+dispersed 90000000 0.97 0.45 0.55 0.65 >three.xsect
 grains three.medium 3000 three.xsect hg3.phase
 oiiotool --pattern noise:type=uniform:min=0:max=2 64x32 3 -d float -o sky.exr
 scene three.scene three.medium 48 'lights = ( { type = "environment"; file = "sky.exr"; }, { type = "sun"; direction = [-0.6, -1.0, -0.3]; irradiance = 2.0; } );'

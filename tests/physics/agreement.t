@@ -4,7 +4,7 @@
 . "$(dirname "$0")/../support/lib.sh"
 # shellcheck source=tests/support/media.sh
 . "$top/tests/support/media.sh"
-grains_setup
+clouds_setup
 sed -i 's/64, 64/256, 256/' grains.scene
 xsections 8e5 7.2e5 >x.xsect
 # 20,000 in a voxel: what is left of their chance adds 2 % to the variance of the differences of blocks

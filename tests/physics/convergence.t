@@ -4,7 +4,7 @@
 . "$(dirname "$0")/../support/lib.sh"
 # shellcheck source=tests/support/media.sh
 . "$top/tests/support/media.sh"
-grains_setup
+clouds_setup
 continuum 512
 for t in explicit fat-ray; do
 	departs 1000 $t 4 8

@@ -33,7 +33,7 @@ pair() { for s in 1 2; do vrender "$1" --samples "$2" --transport "$3" --seed $s
 hg 0 0.55 >iso.phase
 hg 0.8 0.55 >hg.phase
 psd mono --radius 10um | goa-phase --particle water --wavelength 550nm --average --threads 2 -o goa.phase
-xsections 100000000 1 0.55 >big.xsect
+dispersed 100000000 1 0.55 >big.xsect
 oiiotool --pattern constant:color=1,1,1 8x4 3 -d float -o ones.exr
 for phase in hg goa; do
 	cube $phase.medium 4000000 1 $phase.phase
@@ -106,10 +106,10 @@ done
 # ---- seen directly: a light is its own colour, whatever the wavelengths
 
 hg 0.7 0.45 0.55 0.65 >three.phase
-xsections 90000000 0.97 0.45 0.55 0.65 >three.xsect
+dispersed 90000000 0.97 0.45 0.55 0.65 >three.xsect
 grains three.medium 3000 three.xsect three.phase
 hg 0.7 0.40 0.44 0.48 0.52 0.56 0.60 0.64 0.68 >eight.phase
-xsections 3000000 0.9 0.40 0.44 0.48 0.52 0.56 0.60 0.64 0.68 >eight.xsect
+dispersed 3000000 0.9 0.40 0.44 0.48 0.52 0.56 0.60 0.64 0.68 >eight.xsect
 medium-bake --xsect eight.xsect --phase eight.phase --psd one.psd --concentration 1e6/m3 --sphere 1m -o eight.medium
 quad='{ type = "quad"; corner = [-1.0, -1.0, -3.0]; edge1 = [2.0, 0.0, 0.0]; edge2 = [0.0, 2.0, 0.0]; radiance = [0.5, 0.25, 2.0]; }'
 for m in hg three eight; do

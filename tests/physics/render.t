@@ -11,7 +11,7 @@ hg 0.8 0.45 0.55 0.65 >hg3.phase
 # ---- furnace: albedo 1, radiance 1 all around: every pixel is 1, whatever happens inside
 
 cube white.medium 4000000 1 hg.phase
-xsections 100000000 1 0.55 >big.xsect
+dispersed 100000000 1 0.55 >big.xsect
 grains white-grains.medium 3e5 big.xsect hg.phase
 for t in explicit fat-ray grid continuous; do
 	scene furnace.scene white-grains.medium 48 ''
@@ -75,7 +75,7 @@ agree 'the same by eight branches' 0.2837 0.0003 5e-4 c11.exr c12.exr
 # ---- Beer and Lambert: black particles, seen against radiance 1 through the middle of the cube (optical depth 2)
 
 cube black.medium 1000000 0 iso.phase
-xsections 800000 0 0.55 >small.xsect
+dispersed 800000 0 0.55 >small.xsect
 grains black-grains.medium 1e7 small.xsect iso.phase
 beer='camera = { position = [0.0, 0.0, 1000.0]; target = [0.0, 0.0, 0.0]; fov = 0.1; resolution = [64, 64]; };'
 for t in continuous explicit; do
@@ -90,7 +90,7 @@ done
 
 # ---- the same bytes: threads, backends, both transports, three wavelengths, groups of wavelengths
 
-xsections 90000000 0.97 0.45 0.55 0.65 >three.xsect
+dispersed 90000000 0.97 0.45 0.55 0.65 >three.xsect
 grains three.medium 3000 three.xsect hg3.phase
 full='lights = ( { type = "environment"; radiance = 0.3; }, { type = "sun"; direction = [-0.6, -1.0, -0.3]; irradiance = 2.0; angle = 10.0; },
 	{ type = "sun"; direction = [1, -1, 0]; irradiance = 1; } ); ground = { height = -1.2; albedo = 0.4; };'
@@ -98,7 +98,7 @@ scene three.scene three.medium 32 "$full"
 scene tiny.scene three.medium 4 "$full"
 same_bytes three.scene 8 tiny.scene
 hg 0.7 0.40 0.42 0.44 0.46 0.48 0.50 0.52 0.54 0.56 0.58 0.60 >many.phase
-xsections 3000000 0.9 0.40 0.42 0.44 0.46 0.48 0.50 0.52 0.54 0.56 0.58 0.60 >many.xsect
+dispersed 3000000 0.9 0.40 0.42 0.44 0.46 0.48 0.50 0.52 0.54 0.56 0.58 0.60 >many.xsect
 medium-bake --xsect many.xsect --phase many.phase --psd one.psd --concentration 1e6/m3 --sphere 1m -o many.medium
 scene many.scene many.medium 32 ''
 vrender many.scene --samples 64 -o many.exr

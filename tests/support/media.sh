@@ -1,17 +1,23 @@
 # shellcheck shell=sh
-# Media that tests and benchmarks render: particles of one or more classes, Henyey-Greenstein phase functions, the wavelength 0.55 um.
-# Sourced with the tools on the PATH and a folder of its own to work in.
+# Media that tests and benchmarks render: particles of one or more classes, Henyey-Greenstein phase functions, the wavelength 0.55 um
+# unless told otherwise. Sourced with the tools on the PATH and a folder of its own to work in.
 
-# hg G: p(theta) = (1 - g^2) / (4 pi (1 + g^2 - 2 g cos theta)^1.5), at 1801 angles that are densest forward: theta = 180 deg
-# (i/1800)^2. As linear between them and normalised by medium-bake, the mean cosine is off by less than 3e-7 for 0 <= g <= 0.9.
-hg() { hg_rows "$1" '' | { printf '# wavelength:f64:um\ttheta:f64:deg\tp:f64:sr^-1\n'; cat; } | txttab; }
-# hg_rows G RADIUS: its rows, with a column radius if RADIUS is not empty.
+# hg G [WAVELENGTH..]: p(theta) = (1 - g^2) / (4 pi (1 + g^2 - 2 g cos theta)^1.5), at 1801 angles that are densest forward: theta = 180
+# deg (i/1800)^2. As linear between them and normalised by medium-bake, the mean cosine is off by less than 3e-7 for 0 <= g <= 0.9.
+# g falls by 0.05 from one wavelength to the next.
+hg() { { printf '# wavelength:f64:um\ttheta:f64:deg\tp:f64:sr^-1\n'; g=$1; shift; hg_rows "$g" '' "$@"; } | txttab; }
+# hg_rows G RADIUS [WAVELENGTH..]: its rows, with a column radius if RADIUS is not empty.
 hg_rows() {
-	awk -v g="$1" -v radius="${2:+	$2}" 'BEGIN {
+	awk -v g="$1" -v radius="${2:+	$2}" -v list="$(shift 2; echo "${*:-0.55}")" 'BEGIN {
 		pi = atan2(0, -1)
-		for (i = 0; i <= 1800; i++) {
-			u = (i / 1800)^2
-			printf "0.55%s\t%.17g\t%.17g\n", radius, 180 * u, (1 - g*g) / (4 * pi * ((1 - g)^2 + 4 * g * sin(u * pi / 2)^2)^1.5)
+		n = split(list, wavelength, " ")
+		for (l = 1; l <= n; l++) {
+			for (i = 0; i <= 1800; i++) {
+				u = (i / 1800)^2
+				printf "%s%s\t%.17g\t%.17g\n", wavelength[l], radius, 180 * u,
+					(1 - g*g) / (4 * pi * ((1 - g)^2 + 4 * g * sin(u * pi / 2)^2)^1.5)
+			}
+			g -= 0.05
 		}
 	}'
 }
@@ -20,9 +26,32 @@ xsections() {
 	printf '# wavelength:f64:um\tradius:f64:um\tc_ext:f64:um^2\tc_sca:f64:um^2\n%s\n' \
 		"$(echo "$@" | awk '{ for (i = 1; i < NF; i += 2) printf "0.55\t%d\t%s\t%s\n", 500 * (i + 1), $i, $(i + 1) }')" | txttab
 }
+# dispersed C_EXT ALBEDO WAVELENGTH..: of particles of radius 1000 um; C_EXT (um^2) grows by a tenth of the first from one to the next.
+dispersed() {
+	awk -v c="$1" -v a="$2" -v list="$(shift 2; echo "$@")" 'BEGIN {
+		print "# wavelength:f64:um\tradius:f64:um\tc_ext:f64:um^2\tc_sca:f64:um^2"
+		n = split(list, wavelength, " ")
+		for (l = 1; l <= n; l++) { ext = c * (1 + 0.1 * (l - 1)); printf "%s\t1000\t%.10g\t%.10g\n", wavelength[l], ext, ext * a }
+	}' | txttab
+}
 # sizes N: as many of each of the radii 1000 um, .., N times that
 sizes() {
 	awk -v n="$1" 'BEGIN { print "# radius:f64:um\tweight:f64:1"; for (i = 1; i <= n; i++) printf "%d\t%.17g\n", 1000 * i, 1 / n }' | txttab
+}
+
+one_size() { [ -f one.psd ] || sizes 1 >one.psd; }
+# cube NAME C_EXT ALBEDO PHASE [WAVELENGTH..]: of side 2 m, 1e6 particles a m3: C_EXT (um^2) of 1e6 is an extinction of 1/m.
+cube() (
+	one_size
+	name=$1 c_ext=$2 albedo=$3 phase=$4
+	shift 4
+	dispersed "$c_ext" "$albedo" "${@:-0.55}" >cube.xsect
+	medium-bake --xsect cube.xsect --phase "$phase" --psd one.psd --concentration 1e6/m3 --box 2m,2m,2m -o "$name"
+)
+# grains NAME N XSECT PHASE: N particles in a cube of side 2 m, the same for the same N
+grains() {
+	one_size
+	particles --psd one.psd --count "$2" --box 2m,2m,2m | medium-bake --xsect "$3" --phase "$4" --box 2m,2m,2m -o "$1"
 }
 
 # ---- slabs: by reciprocity, what a camera sees of a wide slab at the cosine mu0 to its normal, under radiance 1 from the upper half
@@ -31,7 +60,7 @@ sizes() {
 
 # slab NAME TAU ALBEDO PHASE: 1 m thick and 10 km wide, the same for --transport continuous and grid
 slab() {
-	[ -f one.psd ] || sizes 1 >one.psd
+	one_size
 	xsections "$(awk -v t="$2" -v a="$3" 'BEGIN { printf "%.17g %.17g", t * 1e6, t * 1e6 * a }')" >slab.xsect
 	medium-bake --xsect slab.xsect --phase "$4" --psd one.psd --concentration 1e6/m3 --box 1e4m,1m,1e4m --voxels 4 -o "$1"
 }
@@ -92,13 +121,13 @@ zs() {
 		}'
 }
 
-# ---- grains: clouds of ever more and ever smaller particles, in a cube of side 2 m, optical depth 2 across, albedo 0.9, g 0.5, before
+# ---- clouds of ever more and ever smaller particles, in a cube of side 2 m, optical depth 2 across, albedo 0.9, g 0.5, before
 # a sun of 40 degrees and radiance 2.72; what is not scattered and what is, once and more often, make up the picture.
 # A camera at 9 m from the face sees its middle 1.5 m; a pixel there is (23.4 mm)^2, A = 5.47e-4 m2, what a fat ray covers where that
 # is more than a particle's C = 8 m2/N.
 
-grains_setup() {
-	[ -f one.psd ] || sizes 1 >one.psd
+clouds_setup() {
+	one_size
 	hg 0.5 >grains.phase
 	cat >grains.scene <<-'EOT'
 	camera = { position = [0.0, 0.0, 10.0]; target = [0.0, 0.0, 0.0]; fov = 9.5; resolution = [64, 64]; };
@@ -106,15 +135,15 @@ grains_setup() {
 	lights = ( { type = "sun"; direction = [0.0, 0.0, 1.0]; irradiance = 1.0; angle = 40.0; } );
 	EOT
 }
-# grains N SEED: grains.medium
-grains() {
+# cloud N SEED: grains.medium
+cloud() {
 	xsections "$(awk -v n="$1" 'BEGIN { printf "%.17g %.17g", 8e12 / n, 0.9 * 8e12 / n }')" >grains.xsect
 	particles --psd one.psd --count "$1" --box 2m,2m,2m --seed "$2" |
 		medium-bake --xsect grains.xsect --phase grains.phase --box 2m,2m,2m -o grains.medium
 }
 # continuum SAMPLES: continuous.1.exr and .2.exr, what the clouds come to, from two seeds; black.exr
 continuum() {
-	grains 100 1
+	cloud 100 1
 	for s in 1 2; do vrender grains.scene --transport continuous --samples "$1" --seed 200000$s -o continuous.$s.exr; done
 	sed '/^lights/s/.*/lights = ( );/' grains.scene >black.scene
 	vrender black.scene --transport continuous --samples 1 -o black.exr
@@ -126,7 +155,7 @@ block_rms() { imgcmp --channels G --rms 99 --block "$1" "$2" "$3" | awk '$1 == "
 # seeds, (a - c)(b - d) = ((a - d)^2 + (b - c)^2 - (a - b)^2 - (c - d)^2)/2 has no Monte Carlo variance in its mean.
 departs() {
 	for seed in $(seq "$4"); do
-		grains "$1" "$seed"
+		cloud "$1" "$seed"
 		for s in 1 2; do
 			vrender grains.scene --transport "$2" --samples "$3" --seed $((2 * seed + s)) -o grains.$s.exr
 		done
