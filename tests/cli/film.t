@@ -171,10 +171,10 @@ is '' "$(ls x.exr* 2>/dev/null)" 'no image appears under its name'
 # ---- spectral layers
 
 vrender three.scene --samples 4 --spectral -o spectral.exr
-ok "$("$MOTES_BUILD/tests/unit/film" spectral.exr >got; echo $?)" "the wavelengths' colours are the image's: $(cat got)"
+ok "$("$MOTES_BUILD/tests/support/spectral_colours" spectral.exr >got; echo $?)" "the wavelengths' colours are the image's: $(cat got)"
 scene coloured.scene three.medium 24 'lights = ( { type = "sun"; direction = [-0.6, -1.0, -0.3]; irradiance = [3.0, 1.0, 0.2]; } );'
 vrender coloured.scene --samples 4 --spectral -o spectral.exr
-ok "$("$MOTES_BUILD/tests/unit/film" spectral.exr >got; echo $?)" "of a coloured light, by three wavelengths: $(cat got)"
+ok "$("$MOTES_BUILD/tests/support/spectral_colours" spectral.exr >got; echo $?)" "of a coloured light, by three wavelengths: $(cat got)"
 many='0.40 0.42 0.44 0.46 0.48 0.50 0.52 0.54 0.56 0.58 0.60'
 # shellcheck disable=SC2086
 {
@@ -183,7 +183,7 @@ many='0.40 0.42 0.44 0.46 0.48 0.50 0.52 0.54 0.56 0.58 0.60'
 }
 scene many.scene many.medium 24 "$lights"
 vrender many.scene --samples 32 --spectral -o many.exr
-ok "$("$MOTES_BUILD/tests/unit/film" many.exr >got; echo $?)" "with paths that carry a part of them each too: $(cat got)"
+ok "$("$MOTES_BUILD/tests/support/spectral_colours" many.exr >got; echo $?)" "with paths that carry a part of them each too: $(cat got)"
 is 'spectralLayoutVersion: "1.0" emissiveUnits: "W.m^-2.sr^-1"' \
 	"$(oiiotool --info -v many.exr | sed -n 's/^ *\(spectralLayoutVersion.*\)/\1/p') $(oiiotool --info -v many.exr | sed -n 's/^ *\(emissiveUnits.*\)/\1/p')" \
 	'the layout is named'
