@@ -13,6 +13,8 @@ PACKAGES_all   = gcc libc6-dev make pkg-config libopenexr-dev libimath-dev libpn
 PACKAGES_check = pocl-opencl-icd oclgrind mandoc openimageio-tools perl git gnuplot-nox
 PACKAGES_check-quick = $(PACKAGES_check)
 PACKAGES_bench = pocl-opencl-icd perl gnuplot-nox
+PACKAGES_charts = $(PACKAGES_bench)
+PACKAGES_asan = $(PACKAGES_check)
 
 OWN_CFLAGS = -std=c11 -D_GNU_SOURCE -DMOTES_VERSION='"$(VERSION)"' -DCL_TARGET_OPENCL_VERSION=120 -Ilib -I$(B) -ffp-contract=off -fno-math-errno -Wno-psabi \
 	-fopenmp -Wall -Wextra -Wshadow -Wmissing-prototypes
@@ -146,8 +148,8 @@ deps:
 	$$as $$apt update && $$as env DEBIAN_FRONTEND=noninteractive $$apt install -y --no-install-recommends $$missing && \
 	echo "make deps: packages took $$(($$(date +%s) - begun)) s"
 $(filter-out deps,$(MAKECMDGOALS)): deps
-	@begun=$$(date +%s); $(MAKE) --no-print-directory $(if $(filter check,$@),CPUS=all check-programs,programs) && built=$$(date +%s) && $(MAKE) --no-print-directory $@ && \
-	echo "make deps: programs took $$((built - begun)) s, $@ $$(($$(date +%s) - built)) s"
+	@begun=$$(date +%s); $(MAKE) --no-print-directory $(if $(filter check,$@),CPUS=all check-programs,programs) && \
+	echo "make deps: programs took $$(($$(date +%s) - begun)) s" && $(MAKE) --no-print-directory $@
 else
 # The tests compare the builds of all processors; then the widest is hidden, so that the next one has to stand alone.
 check: ; @$(MAKE) --no-print-directory CPUS=all check-programs && MOTES_BUILD=$(B) sh tests/run && MOTES_BUILD=$(B) sh tests/run --capped
@@ -159,7 +161,8 @@ asan-check-programs: asan-programs $(CHECKS:%=$(B)/asan/tests/%)
 
 demo: programs
 	@mkdir -p $(B)/demo
-	PATH="$(CURDIR)/$(B)/bin:$$PATH" $(MAKE) -C data/scenes/mist OUT="$(CURDIR)/$(B)/demo"
+	@begun=$$(date +%s); PATH="$(CURDIR)/$(B)/bin:$$PATH" $(MAKE) --no-print-directory -C data/scenes/spray OUT="$(CURDIR)/$(B)/demo" && \
+	echo "the picture took $$(($$(date +%s) - begun)) s: $(B)/demo/spray.png"
 
 # Charts of error against time, in $(B)/bench: of all, and, with Mitsuba 3 from PyPI where it can be had, of the renderer's speed.
 RENDER_BENCHES = render lanes particles
@@ -178,7 +181,7 @@ bench-mie: programs
 	PATH="$(CURDIR)/$(B)/bin:$$PATH" CC="$(CC)" MOTES_ARCHIVE="$(CURDIR)/$(B)/libmotes.a" MOTES_PEERS="$(CURDIR)/$(B)/mie-venv" \
 	sh tests/bench/run $(B)/bench $(MIE_BENCHES)
 # Cross sections by the cheapest method within a tolerance.
-bench-xsect: programs $(B)/tests/physics/ladder
+bench-xsect: programs $(B)/tests/physics/method_selection
 	PATH="$(CURDIR)/$(B)/bin:$$PATH" MOTES_TESTS="$(CURDIR)/$(B)/tests" sh tests/bench/run $(B)/bench $(XSECT_BENCHES)
 # What each method is good for: error against time, the cheapest method, and where each fails. Beside each chart is a text of how it is made.
 charts: programs

@@ -2,6 +2,7 @@
 #include "base/die.h"
 #include "optics/goa/goa_plus.h"
 #include "optics/mie/mie_fast_amplitudes.h"
+#include "optics/select/method.h"
 #include "toolkit/phase_table.h"
 
 #include <math.h>
@@ -17,8 +18,8 @@ struct request {
 	double rough;         /* error in L1 at which GOA+ may do, 0: never */
 };
 
-/* One sphere: its series, or the coefficients for sums. */
-struct sphere {
+/* One sphere: its transform, or the coefficients for sums. */
+struct opened {
 	struct phase_state state;
 	struct waves *w;
 	int n;
@@ -27,7 +28,7 @@ struct sphere {
 
 static void sphere_close(struct phase_state *state)
 {
-	struct sphere *s = (struct sphere *)state;
+	struct opened *s = (struct opened *)state;
 	legendre_series_free(s->series);
 	waves_drop(s->w);
 	free(s);
@@ -36,7 +37,7 @@ static void sphere_close(struct phase_state *state)
 static struct phase_state *sphere_open(const void *context, struct waves *w, size_t angles)
 {
 	const struct request *r = context;
-	struct sphere *s = calloc(1, sizeof *s);
+	struct opened *s = calloc(1, sizeof *s);
 	if (!s || waves_solve(w)) {
 		free(s);
 		return NULL;
@@ -45,7 +46,7 @@ static struct phase_state *sphere_open(const void *context, struct waves *w, siz
 	s->state.q_sca = waves_efficiencies(w, NULL).sca;
 	s->state.norm = waves_norm(w, s->state.q_sca);    /* k^2 C_sca: p as the sums give it, not renormalised */
 	s->n = mie_terms_enough(w->n, w->a, w->b, r->tolerance);
-	if (!r->direct && mie_fast_amplitudes_pays(s->n, angles)) {
+	if (!r->direct && method_transform_pays(s->n, angles)) {
 		s->series = mie_fast_amplitudes_new(s->n, w->a, w->b);
 		if (!s->series) {
 			free(s);
@@ -57,7 +58,7 @@ static struct phase_state *sphere_open(const void *context, struct waves *w, siz
 
 static int sphere_at(const struct phase_state *state, int n, const double *theta, double complex *s1, double complex *s2)
 {
-	const struct sphere *s = (const struct sphere *)state;
+	const struct opened *s = (const struct opened *)state;
 	const struct waves *w = s->w;
 	if (!s->series)
 		return mie_amplitudes(s->n, w->a, w->b, n, theta, s1, s2);
@@ -102,7 +103,7 @@ static int goa_plus(const struct size *size, int n, const double *theta, struct 
 	{
 		while (k < nkept && kept[k].m != size->m)
 			k++;
-		own = k == nkept && (k == KEPT || (k + 1) * n > GOA_PLUS_ANGLES);
+		own = k == nkept && (k == KEPT || (k + 1) * n > METHOD_GOA_PLUS_ANGLES);
 		if (k == nkept && !own && (kept[k].rays = find_rays(size->m, n, theta)))
 			kept[nkept++].m = size->m;
 		g = own ? NULL : kept[k].rays;
@@ -126,8 +127,9 @@ static int model(const void *context, struct waves *w, int n, const double *thet
 	if (r->rough > 0) {
 		out->method = "mie";
 		out->error = r->tolerance;
-		double error = w->size.x_im > 0 ? 1 : goa_plus_error(w->size.x, w->size.m);
-		if (error <= r->rough && goa_plus_pays(w->size.x, n)) {
+		const struct sphere sphere = { .x = w->size.x, .m = w->size.m };
+		double error;
+		if (w->size.x_im == 0 && method_goa_plus_pays(&sphere, n, r->rough, &error)) {
 			out->method = "goa+";
 			out->error = error;
 			return goa_plus(&w->size, n, theta, out);

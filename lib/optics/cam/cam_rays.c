@@ -1,7 +1,7 @@
 #include "optics/cam/cam_rays.h"
 
 #include "optics/cam/cam_waves.h"
-#include "optics/goa/goa_rays.h"
+#include "optics/goa/rays.h"
 #include "optics/goa/debye_order.h"
 
 #include <math.h>
@@ -10,19 +10,11 @@
 
 static void find_pencils(double complex m, struct cam_rays *c)
 {
-	double n = creal(m), edge = n < 1 ? asin(n) : M_PI_2;
-	for (int panel = 0; panel < (n < 1 ? 2 : 1) * CAM_PANELS; panel++) {
-		int inside = panel < CAM_PANELS;
-		double width = (inside ? edge : M_PI_2 - edge) / CAM_PANELS;
-		double lo = inside ? width * panel : edge + width * (panel - CAM_PANELS);
-		for (int j = 0; j < GAUSS; j++) {
-			double i = lo + width * (1 + gauss_node[j]) / 2, u = sin(i), t = inside ? asin(u / n) : 0;
-			struct ray r = { .sin_i = u, .cos_i = cos(i) };
-			double complex r1, r2;
-			goa_rays_fresnel(m, u, cos(i), &r1, &r2);
-			c->pencil[c->pencils++] = (struct cam_pencil){ gauss_weight[j] * width * u * cos(i), { norm2(r1), norm2(r2) },
-				inside ? cimag(goa_chord(m, &r)) : INFINITY, cexp(2 * I * (t - i)), -cexp(2 * I * t), -cos(2 * i) };
-		}
+	c->pencils = impact_quadrature(m, CAM_PANELS, c->impact);
+	for (int k = 0; k < c->pencils; k++) {
+		const struct impact *e = &c->impact[k];
+		double i = e->incidence, t = e->enters ? asin(sin(i) / creal(m)) : 0;
+		c->pencil[k] = (struct cam_pencil){ .out = cexp(2 * I * (t - i)), .turn = -cexp(2 * I * t), .off = -cos(2 * i) };
 	}
 }
 
@@ -42,9 +34,8 @@ static void find_glories(double complex m, struct cam_rays *c)
 			if (cabs(f[0] + f[1]) < FAINT)
 				continue;
 			c->glory[c->glories++] = (struct cam_glory){
-				-2 * u * (f[0] + f[1]) * sqrt(2 * M_PI * r->cos_i) * cexp(I * M_PI_4 * (r->eighths + 1)),
-				debye_order_path(p, m, u),
-				u, r->slope, 2 * p * u * (n * n - 1) / q3 };
+				.amplitude = -2 * u * (f[0] + f[1]) * sqrt(2 * M_PI * r->cos_i) * cexp(I * M_PI_4 * (r->eighths + 1)),
+				.path = debye_order_path(p, m, u), .u = u, .slope = r->slope, .bend = 2 * p * u * (n * n - 1) / q3 };
 		}
 	}
 }
@@ -56,18 +47,17 @@ static void find_polygons(double complex m, struct cam_rays *c)
 	double n = creal(m);
 	for (int k = 3; k <= CAM_ORDER; k++)
 		for (int turns = 1; 2 * turns < k; turns++) {
-			double t = M_PI_2 - M_PI * turns / k, u = n * sin(t), q = n * cos(t), cos_i = sqrt(fmax(1 - u * u, 0));
+			double t = M_PI_2 - M_PI * turns / k, u = n * sin(t), q = n * cos(t);
 			double angle = M_PI - 2 * t, out = M_PI - 2 * asin(fmin(u, 1));
 			double common = -2 * u * sqrt(M_PI * q / k) * (turns % 2 ? -1 : 1);
 			double complex f0[2], f1[2], f2[2], turned = cexp(I * M_PI_4 * (1 - 2 * k));
-			struct ray r = { .sin_i = u, .cos_i = cos_i, .q = q };
 			struct cam_polygon g = { .u = u, .phase = 2 * k * q };
 			if (u >= 1)
 				continue;
 			debye_order_amplitude(0, m, u, 0, f0);
 			debye_order_amplitude(1, m, u, 0, f1);
 			debye_order_amplitude(2, m, u, 0, f2);
-			g.chord = 2 * cimag(goa_chord(m, &r));
+			g.chord = 2 * cimag(debye_order_chord(m, u));
 			g.fade = k * g.chord / 2;
 			for (int j = 0; j < 2; j++) {
 				double complex inside = f2[j] / f1[j], power = 1;
@@ -100,15 +90,16 @@ void cam_rays_mean(const struct cam_rays *c, double x, double *abs, double *pr)
 {
 	*abs = *pr = 0;
 	for (int k = 0; k < c->pencils; k++) {
+		const struct impact *e = &c->impact[k];
 		const struct cam_pencil *p = &c->pencil[k];
-		double kept = p->chord == 0 ? 1 : exp(-2 * x * p->chord);
+		double kept = e->chord == 0 ? 1 : exp(-2 * x * e->chord);
 		for (int j = 0; j < 2; j++) {
-			double r = p->reflected[j], enters = 1 - r;
+			double r = e->reflected[j], enters = 1 - r;
 			double complex left = 1 - r * kept * p->turn;
 			double forward = kept * enters * enters * (creal(p->out) * creal(left) + cimag(p->out) * cimag(left)) / norm2(left);
-			*pr += p->weight / 2 * (1 - r * p->off - forward);
+			*pr += e->weight / 2 * (1 - r * p->off - forward);
 			if (enters > 0)
-				*abs += p->weight / 2 * enters * (1 - kept) / (1 - r * kept);
+				*abs += e->weight / 2 * enters * (1 - kept) / (1 - r * kept);
 		}
 	}
 }

@@ -3,19 +3,17 @@
 #ifndef OPTICS_CAM_RAYS_H
 #define OPTICS_CAM_RAYS_H
 
-#include "optics/numerics/gauss.h"
+#include "optics/goa/impact_quadrature.h"
 
 #include "base/cmplx.h"
 
-#define CAM_PANELS 6       /* of the mean, on either side of the critical angle */
+#define CAM_PANELS 6       /* of the quadrature over the impact parameter, for the mean */
 #define CAM_ORDER 30       /* highest order of glories, most sides of polygons */
 #define CAM_GLORIES 64
 #define CAM_POLYGONS 128
 
-/* Rays of one impact parameter u = sin of the angle of incidence. */
+/* Rays of one impact parameter: where they go. */
 struct cam_pencil {
-	double weight;                  /* 2 u du */
-	double reflected[2], chord;     /* |R_j|^2; attenuation along a chord over x, infinite where none leads on */
 	double complex out, turn;       /* e^(i Theta_1); e^(i turn) of another chord */
 	double off;                     /* cos Theta_0 */
 };
@@ -36,7 +34,8 @@ struct cam_polygon {
 
 struct cam_rays {
 	int pencils, glories, polygons;
-	struct cam_pencil pencil[2 * CAM_PANELS * GAUSS];
+	struct impact impact[IMPACT_NODES(CAM_PANELS)];
+	struct cam_pencil pencil[IMPACT_NODES(CAM_PANELS)];
 	struct cam_glory glory[CAM_GLORIES];
 	struct cam_polygon polygon[CAM_POLYGONS];
 };

@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-static double complex inverse(double complex z)
+/* 1/z with one division; z is no zero. */
+static double complex reciprocal(double complex z)
 {
 	double r = 1 / (creal(z) * creal(z) + cimag(z) * cimag(z));
 	return CMPLX(creal(z) * r, -cimag(z) * r);
@@ -20,36 +21,35 @@ void debye_order_amplitude(int p, double complex m, double complex u, double eps
 			q = -q;
 	}
 	double complex k = epsilon ? epsilon * u2 / (2 * ci * ci) : 0, ky = epsilon ? epsilon * u2 / (2 * m * q * q) : 0;
-	double complex over = inverse(m), c = q * over;
+	double complex over = reciprocal(m), c = q * over;
 	double complex a1 = I * ci - k, a2 = -I * ci - k, l1 = I * c - ky, l2 = -I * c - ky;
 	for (int j = 0; j < 2; j++) {
-		double complex a = j ? over : m, b1 = a * l1, b2 = a * l2, d = inverse(a1 - b2);
+		double complex a = j ? over : m, b1 = a * l1, b2 = a * l2, d = reciprocal(a1 - b2);
 		if (p == 0) {
 			f[j] = -(a2 - b2) * d;
 			continue;
 		}
-		double complex inside = -(b1 - a1) * inverse(b2 - a1);
+		double complex inside = -(b1 - a1) * reciprocal(b2 - a1);
 		f[j] = -(a1 - a2) * (b2 - b1) * d * d;
 		for (int i = 1; i < p; i++)
 			f[j] *= inside;
 	}
 }
 
-double complex debye_order_path(int p, double complex m, double complex u)
+double complex debye_order_chord(double complex m, double complex u)
 {
-	double complex ci = csqrt((1 - u) * (1 + u));
 	if (cimag(m) == 0)
-		return 2 * p * csqrt((m - u) * (m + u)) - 2 * ci;
-	if (p == 0)
-		return -2 * ci;
-	/* sqrt(m^2 - s^2) - s (arccos(s/m) - arccos(s/n)): the ray of the real index, exact to first order beyond it (physics of
-	 * Guo et al. 2022, appendix C, improved) */
+		return 2 * csqrt((m - u) * (m + u));
 	double n = creal(m);
 	double complex real = cimag(u) == 0 ? acos(fmin(creal(u) / n, 1)) : cacos(u / n);
-	double complex chord = csqrt(m * m - u * u) - u * (cacos(u / m) - real);
-	if (cimag(u) != 0)
-		return 2 * (p * chord - ci);
-	return CMPLX(2 * p * creal(chord) - 2 * creal(ci), 2 * p * fmax(cimag(chord), 0));
+	double complex chord = 2 * (csqrt(m * m - u * u) - u * (cacos(u / m) - real));
+	return cimag(u) != 0 ? chord : CMPLX(creal(chord), fmax(cimag(chord), 0));
+}
+
+double complex debye_order_path(int p, double complex m, double complex u)
+{
+	double complex outside = 2 * csqrt((1 - u) * (1 + u));
+	return p == 0 ? -outside : p * debye_order_chord(m, u) - outside;
 }
 
 /* Derivatives by u of phase/x: phi'' to phi''''. */

@@ -1,20 +1,14 @@
 #include "optics/goa/goa.h"
 
-#include "optics/numerics/gauss.h"
 #include "optics/goa/goa_norm.h"
+#include "optics/goa/impact_quadrature.h"
 
 #include <stdlib.h>
-#include <string.h>
 
-#define PANELS 24      /* of the quadrature of absorption, on either side of the critical angle */
+#define PANELS 24      /* of the quadrature over the impact parameter */
 #define GLORY 4        /* highest order looked at for forward glories */
 #define GRIDS 26       /* sizes up to 2^0 .. 2^25 */
 #define CHUNK 4096     /* angles of goa_amplitudes whose rays are held at once */
-
-/* Where light may enter an absorbing sphere: a node of a quadrature over the impact parameter. */
-struct entry {
-	double weight, reflected[2], chord;      /* s ds; |R_j|^2; attenuation along a chord, infinite where none leads on */
-};
 
 struct goa {
 	double complex m;
@@ -24,8 +18,8 @@ struct goa {
 	struct goa_rays asked, back;
 	struct goa_beam *front;         /* forward up to GLORY, for the estimate of errors */
 	int fronts;
-	struct entry entry[2 * PANELS * GAUSS];
-	int entries;                    /* 0: does not absorb */
+	struct impact impact[IMPACT_NODES(PANELS)];
+	int impacts;                    /* 0: does not absorb */
 	struct goa_norm_grid grid[GRIDS];    /* for the norm, by size */
 };
 
@@ -44,11 +38,11 @@ static void amplitudes(const struct goa *g, const struct goa_rays *r, double x, 
 {
 	struct goa_cap cap[GOA_ORDER_MAX + 1];
 	caps(g, x, cap);
-	for (int b = 0, from = 0; from < r->n; b++, from += GOA_WIDTH) {
+	for (int b = 0, from = 0; from < r->blocks.n; b++, from += GOA_WIDTH) {
 		double s[4][GOA_WIDTH] = { { 0 } }, d[GOA_WIDTH];
-		g->lanes->coherent(&r->packet[r->first[b]], r->first[b + 1] - r->first[b], x, cap, s);
+		g->lanes->coherent(&r->packet[r->blocks.first[b]], r->blocks.first[b + 1] - r->blocks.first[b], x, cap, s);
 		g->lanes->diffraction(&r->angles[b], x, d);
-		for (int i = 0; i < GOA_WIDTH && from + i < r->n; i++) {
+		for (int i = 0; i < GOA_WIDTH && from + i < r->blocks.n; i++) {
 			s1[from + i] = CMPLX(s[0][i] + d[i], s[1][i]);
 			s2[from + i] = CMPLX(s[2][i] + d[i], s[3][i]);
 		}
@@ -61,33 +55,10 @@ static double integral(struct goa *g, int interfere, double x, double *along)
 	int level = (int)fmin(fmax(ceil(log2(x)), 0), GRIDS - 1);
 	struct goa_norm_grid *grid = &g->grid[level];
 	struct goa_cap cap[GOA_ORDER_MAX + 1];
-	if (!grid->rays.n && goa_norm_grid_new(g->m, g->order, g->caustic, ldexp(1, level), grid))
+	if (!grid->rays.blocks.n && goa_norm_grid_new(g->m, g->order, g->caustic, ldexp(1, level), grid))
 		return -1;
 	caps(g, x, cap);
 	return goa_norm_grid_sum(g->lanes, grid, interfere, x, cap, along);
-}
-
-/* The quadrature of absorption, in the angle of incidence. */
-static int enter(double complex m, struct entry *out)
-{
-	double n = creal(m), edge = n < 1 ? asin(n) : M_PI / 2;
-	int k = 0;
-	for (int panel = 0; panel < 2 * PANELS; panel++) {
-		int inside = panel < PANELS;
-		double width = (inside ? edge : M_PI / 2 - edge) / PANELS;
-		double lo = inside ? width * panel : edge + width * (panel - PANELS);
-		if (width == 0)
-			break;
-		for (int j = 0; j < GAUSS; j++) {
-			double i = lo + width * (1 + gauss_node[j]) / 2, s = sin(i), c = cos(i);
-			struct ray r = { .sin_i = s, .cos_i = c };
-			double complex r1, r2;
-			goa_rays_fresnel(m, s, c, &r1, &r2);
-			out[k++] = (struct entry){ gauss_weight[j] * width / 2 * s * c, { creal(r1 * conj(r1)), creal(r2 * conj(r2)) },
-			                           inside ? cimag(goa_chord(m, &r)) : INFINITY };
-		}
-	}
-	return k;
 }
 
 struct goa *goa_new(double complex m, int order)
@@ -98,7 +69,7 @@ struct goa *goa_new(double complex m, int order)
 	g->m = m;
 	g->order = order;
 	g->lanes = goa_lanes();
-	g->entries = cimag(m) == 0 ? 0 : enter(m, g->entry);
+	g->impacts = cimag(m) == 0 ? 0 : impact_quadrature(m, PANELS, g->impact);
 	int most = order > GLORY ? order : GLORY;
 	for (int p = 0; p <= most; p++)
 		g->caustic[p] = rays_caustic(creal(m), p);
@@ -125,7 +96,7 @@ void goa_free(struct goa *g)
 
 int goa_aim(struct goa *g, int n, const double *theta)
 {
-	if (n && n == g->asked.n && !memcmp(theta, g->asked.theta, (size_t)n * sizeof *theta))
+	if (angle_blocks_are(&g->asked.blocks, n, theta))
 		return 0;
 	goa_rays_free(&g->asked);
 	return goa_rays_find(g->m, g->order, g->caustic, n, theta, &g->asked);
@@ -145,11 +116,11 @@ int goa_incoherent(struct goa *g, double x, double *i1, double *i2, double *norm
 	if (*norm < 0)
 		return -1;
 	caps(g, x, cap);
-	for (int b = 0, from = 0; from < r->n; b++, from += GOA_WIDTH) {
+	for (int b = 0, from = 0; from < r->blocks.n; b++, from += GOA_WIDTH) {
 		double s[2][GOA_WIDTH] = { { 0 } }, d[GOA_WIDTH];
-		g->lanes->incoherent(&r->packet[r->first[b]], r->first[b + 1] - r->first[b], x, cap, s);
+		g->lanes->incoherent(&r->packet[r->blocks.first[b]], r->blocks.first[b + 1] - r->blocks.first[b], x, cap, s);
 		g->lanes->diffraction(&r->angles[b], x, d);
-		for (int i = 0; i < GOA_WIDTH && from + i < r->n; i++) {
+		for (int i = 0; i < GOA_WIDTH && from + i < r->blocks.n; i++) {
 			i1[from + i] = s[0][i] + d[i] * d[i];
 			i2[from + i] = s[1][i] + d[i] * d[i];
 		}
@@ -220,13 +191,13 @@ static double extinction(const struct goa *g, double x, double *missing)
 static double absorption(const struct goa *g, double x)
 {
 	double q = 0;
-	for (int k = 0; k < g->entries; k++) {
-		const struct entry *e = &g->entry[k];
+	for (int k = 0; k < g->impacts; k++) {
+		const struct impact *e = &g->impact[k];
 		double lost = -expm1(-2 * x * e->chord), sum = 0;
 		for (int j = 0; j < 2; j++)
 			if (e->reflected[j] < 1)
 				sum += (1 - e->reflected[j]) * lost / (1 - e->reflected[j] * (1 - lost));
-		q += e->weight * sum;
+		q += e->weight / 2 * sum;
 	}
 	return q;
 }

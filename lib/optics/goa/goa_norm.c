@@ -102,11 +102,11 @@ double goa_norm_grid_sum(const struct goa_lanes *lanes, const struct goa_norm_gr
 {
 	double sum = 0;
 	*along = 0;
-	for (int b = 0; b * GOA_WIDTH < g->rays.n; b++) {
+	for (int b = 0; b * GOA_WIDTH < g->rays.blocks.n; b++) {
 		double s[4][GOA_WIDTH] = { { 0 } }, apart[2][GOA_WIDTH] = { { 0 } }, d[GOA_WIDTH];
-		const struct goa_packet *first = &g->rays.packet[g->rays.first[b]];
+		const struct goa_packet *first = &g->rays.packet[g->rays.blocks.first[b]];
 		const struct goa_angles *angles = &g->rays.angles[b];
-		size_t n = g->rays.first[b + 1] - g->rays.first[b];
+		size_t n = g->rays.blocks.first[b + 1] - g->rays.blocks.first[b];
 		int some = 0, all = 1;
 		for (int i = 0; i < GOA_WIDTH; i++) {
 			some |= interfere && g->share[b * GOA_WIDTH + i] > 0;

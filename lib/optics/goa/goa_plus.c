@@ -4,7 +4,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 struct goa_plus {
 	double complex m;
@@ -37,7 +36,7 @@ void goa_plus_free(struct goa_plus *g)
 
 int goa_plus_aim(struct goa_plus *g, int n, const double *theta)
 {
-	if (n && n == g->asked.n && !memcmp(theta, g->asked.theta, (size_t)n * sizeof *theta))
+	if (angle_blocks_are(&g->asked.blocks, n, theta))
 		return 0;
 	goa_plus_rays_free(&g->asked);
 	return goa_plus_rays_find(g->m, n, theta, &g->asked);
@@ -46,18 +45,18 @@ int goa_plus_aim(struct goa_plus *g, int n, const double *theta)
 static void amplitudes(const struct goa_plus_lanes *lanes, const struct goa_plus_rays *r, const struct goa_plus_edge *e,
                        double complex *s1, double complex *s2)
 {
-	for (int b = 0, from = 0; from < r->n; b++, from += GOA_WIDTH) {
+	for (int b = 0, from = 0; from < r->blocks.n; b++, from += GOA_WIDTH) {
 		double s[4][GOA_WIDTH] = { { 0 } };
 		lanes->waves(e, &r->edge[b], s);
 		if (!e->windows.whole)
-			lanes->rays(&r->packet[r->first[b]], r->first[b + 1] - r->first[b], e, s);
-		for (int i = 0; i < GOA_WIDTH && from + i < r->n; i++) {
+			lanes->rays(&r->packet[r->blocks.first[b]], r->blocks.first[b + 1] - r->blocks.first[b], e, s);
+		for (int i = 0; i < GOA_WIDTH && from + i < r->blocks.n; i++) {
 			s1[from + i] = CMPLX(s[0][i], s[1][i]);
 			s2[from + i] = CMPLX(s[2][i], s[3][i]);
 		}
 	}
 	if (!e->windows.whole)
-		goa_plus_caustics_add(r, e, s1, s2);
+		goa_plus_caustics_add(&r->caustics, e, s1, s2);
 }
 
 int goa_plus_at(const struct goa_plus *g, double x, double complex *s1, double complex *s2, struct efficiencies *q)
@@ -89,11 +88,4 @@ double goa_plus_error(double x, double complex m)
 		return 1;
 	/* resonances of a small sphere of high index, a little beside their places; what orders left out hold between strong mirrors */
 	return fmin(1, 0.005 + (0.1 + 2 * fmax(n - 1, 0)) / x + 0.0035 * fmax(n - 2.5, 0));
-}
-
-int goa_plus_pays(double x, int ntheta)
-{
-	/* in 0.3 ns, as measured with AVX-512: waves at the edge, and 20 us an angle, shared, for rays, against a partial wave's
-	 * coefficients and its terms at every angle, or what it costs in a series (mie_fast_amplitudes_pays) */
-	return ntheta <= GOA_PLUS_ANGLES && x * (100 + fmin(ntheta, 1200)) > 1e6 + 64000.0 / GOA_PLUS_SHARED * ntheta;
 }

@@ -11,7 +11,8 @@
 
 #define GOA_PLUS_ORDERS 8      /* orders 0 .. 8 have windows of their own; those above are in no ray and share one */
 
-/* W rises or falls in each of its pieces, smoothly, and is 0 or 1 beyond: a smoothstep of zero and over. Piece k holds from u = from[k] on. */
+/* W rises or falls in each of its pieces, smoothly, and is 0 or 1 beyond: a smoothstep of zero and over.
+ * Piece k holds from u = from[k] on. */
 #define GOA_PLUS_WINDOW_PIECES 3
 struct goa_plus_window {
 	int n;

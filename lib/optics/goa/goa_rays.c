@@ -1,5 +1,6 @@
 #include "optics/goa/goa_rays.h"
 
+#include "optics/goa/debye_order.h"
 #include "optics/goa/goa.h"
 
 #include <stdlib.h>
@@ -17,18 +18,6 @@ void goa_rays_fresnel(double complex m, double sin_i, double cos_i, double compl
 	}
 	*r1 = (cos_i - m * ct) / (cos_i + m * ct);
 	*r2 = (m * cos_i - ct) / (m * cos_i + ct);
-}
-
-/* Phase path of one chord over x: 2 [sqrt(m^2 - s^2) - s (arccos(s/m) - arccos(s/n))], s = sin i; 2 n cos t for real m.
- * It keeps the ray of the real index and is exact to first order beyond it (physics of appendix C, improved). */
-double complex goa_chord(double complex m, const struct ray *r)
-{
-	if (cimag(m) == 0)
-		return 2 * r->q;
-	double n = creal(m), s = r->sin_i;
-	double complex root = csqrt(m * m - s * s), bend = s * (cacos(s / m) - acos(fmin(s / n, 1)));
-	double complex path = 2 * (root - bend);
-	return CMPLX(creal(path), fmax(cimag(path), 0));
 }
 
 int goa_rays_trace(double complex m, int order, const struct caustic *caustic, double theta, struct goa_beam *out)
@@ -51,7 +40,9 @@ int goa_rays_trace(double complex m, int order, const struct caustic *caustic, d
 				continue;
 			b->f1 = f1;
 			b->f2 = f2;
-			b->path = (p ? p * goa_chord(m, r) : 0) - 2 * r->cos_i;
+			/* q and cos i have digits that u has lost */
+			double complex chord = cimag(m) == 0 ? 2 * r->q : debye_order_chord(m, r->sin_i);
+			b->path = (p ? p * chord : 0) - 2 * r->cos_i;
 			b->ray = *r;
 			n++;
 		}
@@ -75,7 +66,7 @@ static double settled(const struct ray *r, const struct caustic *c)
 
 static void put(struct goa_packet *k, int lane, const struct goa_beam *b, const struct caustic *caustic)
 {
-	double spread = b->ray.p ? sqrt(b->ray.ratio * b->ray.cos_i / b->ray.slope) : 0.5;
+	double spread = rays_spread(&b->ray);
 	k->path[lane] = creal(b->path) * M_2_PI;
 	k->quarters[lane] = b->ray.eighths / 2.0;
 	k->fade[lane] = cimag(b->path);
@@ -93,46 +84,37 @@ static void put(struct goa_packet *k, int lane, const struct goa_beam *b, const 
 
 int goa_rays_find(double complex m, int order, const struct caustic *caustic, int n, const double *theta, struct goa_rays *out)
 {
-	int blocks = (n + GOA_WIDTH - 1) / GOA_WIDTH, beams = 0;
+	int blocks = angle_blocks_count(n), beams = 0;
 	size_t used = 0, room = 0;
 	for (int p = 0; p <= order; p++)
 		beams += RAYS_MAX(p);
 	struct goa_beam *beam = malloc((size_t)beams * sizeof *beam);
 	memset(out, 0, sizeof *out);
-	out->n = n;
-	out->theta = malloc((size_t)(n ? n : 1) * sizeof *out->theta);
-	out->first = malloc(((size_t)blocks + 1) * sizeof *out->first);
 	out->angles = calloc((size_t)(blocks ? blocks : 1), sizeof *out->angles);
-	if (!beam || !out->theta || !out->first || !out->angles)
+	if (!beam || !out->angles || angle_blocks_new(n, theta, &out->blocks))
 		goto no_memory;
-	memcpy(out->theta, theta, (size_t)n * sizeof *theta);
 	for (int b = 0; b < blocks; b++) {
-		out->first[b] = used;
+		out->blocks.first[b] = used;
 		for (int lane = 0; lane < GOA_WIDTH && b * GOA_WIDTH + lane < n; lane++) {
 			double t = theta[b * GOA_WIDTH + lane];
 			int k = goa_rays_trace(m, order, caustic, t, beam);
-			size_t end = out->first[b] + (size_t)k;
+			size_t end = out->blocks.first[b] + (size_t)k;
 			if (t < 90) {
 				double sine = sin(t * (M_PI / 180));
 				out->angles[b].sine[lane] = sine;
 				out->angles[b].root[lane] = sqrt(2 / (M_PI * fmax(sine, 1e-100))) / fmax(sine, 1e-100);
 			}
-			if (end > room) {
-				room = 2 * room + (size_t)k;
-				struct goa_packet *more = realloc(out->packet, room * sizeof *more);
-				if (!more)
-					goto no_memory;
-				out->packet = more;
-			}
+			if (end > used && angle_blocks_room(&out->packet, &room, used, end - used, sizeof *out->packet))
+				goto no_memory;
 			for (; used < end; used++) {
 				memset(&out->packet[used], 0, sizeof out->packet[used]);
 				out->packet[used].clearest = INFINITY;
 			}
 			for (int i = 0; i < k; i++)
-				put(&out->packet[out->first[b] + (size_t)i], lane, &beam[i], caustic);
+				put(&out->packet[out->blocks.first[b] + (size_t)i], lane, &beam[i], caustic);
 		}
 	}
-	out->first[blocks] = used;
+	out->blocks.first[blocks] = used;
 	free(beam);
 	return 0;
 no_memory:
@@ -143,8 +125,7 @@ no_memory:
 
 void goa_rays_free(struct goa_rays *r)
 {
-	free(r->theta);
-	free(r->first);
+	angle_blocks_free(&r->blocks);
 	free(r->packet);
 	free(r->angles);
 	memset(r, 0, sizeof *r);

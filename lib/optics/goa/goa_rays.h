@@ -2,6 +2,7 @@
 #ifndef OPTICS_GOA_RAYS_H
 #define OPTICS_GOA_RAYS_H
 
+#include "optics/goa/angle_blocks.h"
 #include "optics/goa/rays.h"
 
 #include "base/cmplx.h"
@@ -35,9 +36,7 @@ struct goa_angles {
 };
 
 struct goa_rays {
-	int n;                       /* angles */
-	double *theta;               /* degrees */
-	size_t *first;               /* first packet of each GOA_WIDTH angles, one more than there are such */
+	struct angle_blocks blocks;
 	struct goa_packet *packet;
 	struct goa_angles *angles;
 };
@@ -64,9 +63,6 @@ static inline double goa_rays_spread(double x, const struct ray *r, const struct
 
 /* goa_rays_fresnel - amplitudes R_1 (perpendicular), R_2 (parallel); c_t = sqrt(1 - sin^2 i/m^2), Im c_t >= 0. */
 void goa_rays_fresnel(double complex m, double sin_i, double cos_i, double complex *r1, double complex *r2);
-
-/* goa_chord - phase path of one chord over x. */
-double complex goa_chord(double complex m, const struct ray *r);
 
 /* goa_rays_trace - all rays of order p <= order at theta (degrees), but those too faint to matter; returns how many. */
 int goa_rays_trace(double complex m, int order, const struct caustic *caustic, double theta, struct goa_beam *out);

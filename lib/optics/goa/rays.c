@@ -19,6 +19,11 @@ static double turn_slope(double n, int p, double u)
 	return 2 - 2 * p * c / sqrt((n - 1) * (n + 1) + c * c);
 }
 
+double rays_spread(const struct ray *r)
+{
+	return r->p ? sqrt(r->ratio * r->cos_i / r->slope) : 0.5;
+}
+
 struct caustic rays_caustic(double n, int p)
 {
 	struct caustic c = { NAN, NAN, 0, p ? 2.0 * p / n * fabs(1 - 1 / (n * n)) : 0 };

@@ -25,6 +25,9 @@ struct ray {
 	double gap;           /* |Theta_p - Theta_p(rainbow)|, infinite without a rainbow */
 };
 
+/* rays_spread - sqrt(D), D = sin i cos i / (sin theta |Theta'|) the divergence factor; infinite on caustics. */
+double rays_spread(const struct ray *r);
+
 /* Where D of order p diverges, for n. */
 struct caustic {
 	double incidence;     /* i_R of the rainbow, rad: cos^2 i_R = (n^2 - 1)/(p^2 - 1); NaN if there is none */

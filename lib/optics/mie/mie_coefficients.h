@@ -1,4 +1,5 @@
-/* mie_solve - the partial waves of WIDTH spheres side by side. Included with LANES and UNROLL set.
+/* mie_coefficients - a_l and b_l of spheres or of orders side by side, from what goes downward and upward. Included with LANES and UNROLL
+ * set.
  *
  * Symbols. psi_l, chi_l, xi_l = psi_l - i chi_l Riccati-Bessel functions with psi_0 = sin, chi_0 = cos;
  * y = m x; E_l(z) = -psi_{l+1}(z)/psi_l(z), so that D_l(z) = psi_l'(z)/psi_l(z) = E_l(z) + (l+1)/z.
@@ -18,8 +19,8 @@
  *
  * Where m is near 1, A is small: f - psi_{l-1}/psi_l = d_l/m + E_l(x) (1/m - 1) + (l+1)/x (1/m^2 - 1), for b_l m d_l + E_l(x) (m - 1), with
  * d_l = E_l(y) - E_l(x) by its own recurrence d_{l-1} = [(2l+1)/y - (2l+1)/x + d_l] E_{l-1}(x) E_{l-1}(y), has the digits of m - 1. */
-#ifndef OPTICS_MIE_SOLVE_H
-#define OPTICS_MIE_SOLVE_H
+#ifndef OPTICS_MIE_COEFFICIENTS_H
+#define OPTICS_MIE_COEFFICIENTS_H
 
 #include "optics/mie/mie_downward.h"
 #include "optics/mie/mie_upward.h"
