@@ -9,6 +9,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 
 int main(int argc, char **argv)
 {
@@ -61,5 +62,10 @@ int main(int argc, char **argv)
 		voxels_count(&m, (int)voxels);
 	}
 	medium_write(output, &m);
+	medium_free(&m);
+	free(history);
+	free(matter);
+	free(phases);
+	free(args.history);
 	return 0;
 }

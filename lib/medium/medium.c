@@ -387,3 +387,11 @@ void medium_close(struct medium *m)
 	munmap(m->map, m->map_size);
 	free(m->history);
 }
+
+void medium_free(struct medium *m)
+{
+	void *const own[] = { m->history, m->wavelength, m->radius, m->count, m->c_ext, m->c_sca, m->node, m->theta, m->p, m->cdf,
+		m->particle, m->first, m->voxel_count, m->density };
+	for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+		free(own[i]);
+}

@@ -55,4 +55,7 @@ void medium_open(const char *path, struct medium *m);
 
 void medium_close(struct medium *m);
 
+/* medium_free - one that is not of a file, whose arrays are its own. */
+void medium_free(struct medium *m);
+
 #endif
