@@ -3,8 +3,9 @@
 #include "base/opt.h"
 #include "base/out.h"
 #include "format/tab.h"
+#include "medium/medium_file.h"
+#include "render/backend.h"
 #include "render/image.h"
-#include "render/scene_setup.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -44,9 +45,9 @@ static double next_batch(double paths, double seconds, int whole, double *slowes
 
 /* Samples [from, to), in batches of some samples of some pixels. A CPU takes all samples of a pixel while what it sees of the medium is
  * in the cache, a GPU as many pixels as there are; the C backend, which a signal ends at any time, all pixels where nobody looks. */
-static void render(struct job *j, struct cl *cl, uint32 from, uint32 to, int threads)
+static void render(const struct setup *setup, struct film *film, struct cl *cl, uint32 from, uint32 to, int threads)
 {
-	const uint32 pixels = (uint32)(j->scene.width * j->scene.height);
+	const uint32 pixels = (uint32)(film->width * film->height);
 	int visible = isatty(STDERR_FILENO), wide = cl && cl_wide(cl);
 	double start = now(), shown = start, slowest = INFINITY, batch = FIRST_PATHS;
 	for (uint32 sample = from, n; sample < to; sample += n) {
@@ -57,7 +58,7 @@ static void render(struct job *j, struct cl *cl, uint32 from, uint32 to, int thr
 			if (cl)
 				cl_render(cl, pixel, part, sample, n);
 			else
-				render_c(j, pixel, part, sample, n, threads);
+				render_c(setup, film, pixel, part, sample, n, threads);
 			double after = now();
 			batch = next_batch((double)part * n, after - before, part == pixels, &slowest);
 			int last = pixel + part == pixels && sample + n == to;
@@ -112,45 +113,51 @@ int main(int argc, char **argv)
 	if (!part)
 		to = samples = samples ? samples : SAMPLES;
 	struct scenefile file;
-	struct medium medium;
-	struct job job;
+	struct medium_file baked;
+	const struct medium *medium = &baked.medium;
+	struct setup setup;
+	struct film film;
 	const char *path = args.n ? args.operand[0] : "-";
 	scenefile_read(path, &file);
-	medium_open(file.medium, &medium);
+	medium_file_open(file.medium, &baked);
 	int asked = transport >= 0;
 	if (!asked)
-		transport = medium.n_particles ? TRANSPORT_EXPLICIT : TRANSPORT_CONTINUOUS;
-	else if ((transport == TRANSPORT_EXPLICIT || transport == TRANSPORT_FAT_RAY) && !medium.n_particles)
+		transport = medium->kind == MEDIUM_PARTICLES ? TRANSPORT_EXPLICIT : TRANSPORT_CONTINUOUS;
+	else if ((transport == TRANSPORT_EXPLICIT || transport == TRANSPORT_FAT_RAY) && medium->kind != MEDIUM_PARTICLES)
 		die(file.medium, "has no particles, which explicit and fat-ray need; bake it from particles, or render it as grid or continuous");
 	if (attenuation == ATTENUATION_EXPONENTIAL && transport != TRANSPORT_FAT_RAY)
 		die("--attenuation", "exponential goes with --transport fat-ray");
-	if (spectral && medium.n_waves > IMAGE_WAVES)
-		die("--spectral", "the medium has %d wavelengths; an image has room for %d", medium.n_waves, IMAGE_WAVES);
-	job_make(&job, &file, &medium, transport, attenuation, (int)branches, (uint32)seed);
-	job_film(&job, spectral);
+	if (spectral && medium->n_waves > IMAGE_WAVES)
+		die("--spectral", "the medium has %d wavelengths; an image has room for %d", medium->n_waves, IMAGE_WAVES);
+	const struct render_options options = { .transport = transport, .attenuation = attenuation, .branches = (int)branches,
+		.spectral = spectral, .seed = (uint32)seed };
+	setup_make(&setup, &file, medium, &options);
+	film_make(&film, &setup.scene);
 	if (verbose)
 		warn(file.medium, "%s, %s: %zu particles, %d classes, %d wavelengths, mean optical depth %.4g along the shortest axis",
 		     (const char *[]){ "explicit", "fat-ray", "grid", "continuous" }[transport],
-		     asked ? "as asked for" : medium.n_particles ? "the default for particles" : "the default without particles",
-		     medium.n_particles, medium.n_classes, medium.n_waves, medium_depth(&medium));
+		     asked ? "as asked for" : medium->kind == MEDIUM_PARTICLES ? "the default for particles" : "the default without particles",
+		     medium->n_particles, medium->n_classes, medium->n_waves, medium_depth(medium));
 
 	struct out out = out_open(output, 1);    /* before the work, not after */
-	struct cl *cl = backend ? cl_start(&job, (int)device, verbose) : NULL;
-	render(&job, cl, (uint32)from, (uint32)to, (int)threads);
+	struct cl *cl = backend ? cl_start(&setup, &film, (int)device, verbose) : NULL;
+	render(&setup, &film, cl, (uint32)from, (uint32)to, (int)threads);
 	if (cl)
-		cl_finish(cl);
-	job_finish(&job);
-	if (job.overflow)
+		cl_read(cl, &film);
+	if (!film_holds(&film))
 		die(path, "the light is too strong: a pixel's samples sum to more than 2^32; scale the lights down");
 	struct image image;
-	char *content = xtext("medium crc %08x", medium.crc), *history = tab_join(medium.history, content, file.history, NULL);
-	image_of(&image, &job, &medium, from, to, samples, history, args.history);
+	char *content = xtext("medium crc %08x", baked.crc), *history = tab_join(medium->history, content, file.history, NULL);
+	image_of(&image, &setup.scene, &film, medium, from, to, samples, history, args.history);
 	image_write(&out, &image, part != NULL);
 	image_free(&image);
 	free(content);
 	free(history);
-	job_free(&job);
-	medium_close(&medium);
+	if (cl)
+		cl_free(cl);
+	film_free(&film);
+	setup_free(&setup);
+	medium_file_close(&baked);
 	scenefile_free(&file);
 	free(args.history);
 	return 0;

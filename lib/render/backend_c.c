@@ -1,6 +1,6 @@
-/* The C backend: which build of the kernels serves a job, and its pixels divided among threads. */
+/* The C backend: which build of the kernels serves a scene, and its pixels divided among threads. */
 #include "base/cpu.h"
-#include "render/scene_setup.h"
+#include "render/backend.h"
 #include "render/kernels_c.h"
 
 #define CHUNK 256              /* pixels that a thread takes at a time, or fewer, */
@@ -14,13 +14,13 @@ static render_fn *build_for(const struct scene *s)
 	return plain && s->n_waves == 1 ? one[level] : plain && s->n_waves == 3 ? three[level] : any[level];
 }
 
-void render_c(struct job *j, uint32 pixel, uint32 pixels, uint32 first, uint32 n, int threads)
+void render_c(const struct setup *u, struct film *f, uint32 pixel, uint32 pixels, uint32 first, uint32 n, int threads)
 {
-	render_fn *render = build_for(&j->scene);
+	render_fn *render = build_for(&u->scene);
 	uint32 end = pixel + pixels, chunk = n < CHUNK_PATHS / CHUNK ? CHUNK : CHUNK_PATHS / n + 1;
 	int overflow = 0;
 #pragma omp parallel for num_threads(threads) schedule(dynamic) reduction(| : overflow)
 	for (uint32 from = pixel; from < end; from += chunk)
-		render(&j->scene, &j->tables, j->film, &overflow, from, end - from < chunk ? end : from + chunk, first, first + n);
-	j->overflow |= overflow;
+		render(&u->scene, &u->tables, f->sum, &overflow, from, end - from < chunk ? end : from + chunk, first, first + n);
+	f->overflow |= overflow;
 }

@@ -1,7 +1,7 @@
 /* The OpenCL build of the kernels: what a device holds, and its launches. */
 #include "base/die.h"
 #include "base/unit.h"
-#include "render/scene_setup.h"
+#include "render/backend.h"
 #include "render/opencl.h"
 
 #include <stdio.h>
@@ -9,18 +9,19 @@
 #include <string.h>
 
 #define CHUNKS_MAX 8           /* buffers of a large table */
-#define N_TABLES 17            /* the scene is one */
+#define N_BUFFERS (1 + N_TABLES)    /* the scene is one */
 #define CPU_PIXELS 256         /* of a work-item, or fewer, */
 #define CPU_PATHS 16384        /* of about so many paths: lanes run dry only at its end, and none waits long for the last */
 #define GPU_GROUP 64
 
 struct cl {
-	struct job *job;
+	uint32 pixels;             /* of the image */
+	size_t pixel_size;         /* of the film, bytes */
 	cl_context context;
 	cl_command_queue queue;
 	cl_program program;
 	cl_kernel kernel;
-	cl_mem table[N_TABLES * CHUNKS_MAX];
+	cl_mem table[N_BUFFERS * CHUNKS_MAX];
 	cl_uint n_buffers;         /* of the tables: the kernel's first arguments, followed by the film */
 	cl_mem *film, overflow;
 	uint32 n_films, film_pixels;      /* buffers, pixels of each */
@@ -64,17 +65,12 @@ static size_t buffer_limit(cl_device_id device)
 	return (size_t)most;
 }
 
-/* As the kernel's arguments are. What grows with the medium or the map is large. */
-static void tables(struct job *j, struct table *out)
+/* As the kernel's arguments are. */
+static void tables(const struct setup *u, struct table *out)
 {
-	const struct tables *t = &j->tables;
-	const struct table table[N_TABLES] = {
-		{ &j->scene, sizeof j->scene / 4, 0 },
-		{ t->extinction, j->n_extinction, 0 }, { t->disc, j->n_disc, 0 }, { t->albedo, j->n_albedo, 0 }, { t->cap, j->n_cap, 0 },
-		{ t->colour, j->n_colour, 0 }, { t->phase, j->n_phase, 0 }, { t->interval, j->n_interval, 1 }, { t->alias, j->n_alias, 1 },
-		{ t->angle, j->n_angle, 1 }, { t->particle, j->n_particle, 1 }, { t->first, j->n_first, 1 }, { t->brick, j->n_brick, 1 },
-		{ t->voxel, j->n_voxel, 1 }, { t->count, j->n_count, 1 }, { t->map, j->n_map, 1 }, { t->map_cdf, j->n_map_cdf, 1 },
-	};
+#define SMALL(type, name) { u->tables.name, u->size.name, 0 },
+#define LARGE(type, name) { u->tables.name, u->size.name, 1 },
+	const struct table table[N_BUFFERS] = { { &u->scene, sizeof u->scene / 4, 0 }, TABLES(SMALL, LARGE) };
 	memcpy(out, table, sizeof table);
 }
 
@@ -84,7 +80,7 @@ static int divide(const struct table *table, size_t limit, int *chunks)
 {
 	size_t fixed = 0, large = 0;
 	int shift = 2;
-	for (int i = 0; i < N_TABLES; i++)
+	for (int i = 0; i < N_BUFFERS; i++)
 		if (table[i].large)
 			large = table[i].n > large ? table[i].n : large;
 		else
@@ -101,11 +97,11 @@ static int divide(const struct table *table, size_t limit, int *chunks)
 }
 
 /* A program for this scene alone is smaller and faster: constants that many a branch depends on are in its options. */
-static char *options_for(const struct cl *c, cl_device_id device, int chunks, int shift)
+static char *options_for(const struct cl *c, const struct scene *s, cl_device_id device, int chunks, int shift)
 {
 	cl_device_fp_config rounding = 0;
 	char waves[32] = "", parts[32] = "";
-	const struct scene *s = &c->job->scene;
+	const struct volume *v = &s->volume;
 	cl_ask(device, CL_DEVICE_SINGLE_FP_CONFIG, &rounding, sizeof rounding);
 	if (!(rounding & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) || !(rounding & CL_FP_DENORM))
 		warn("OpenCL", "the device rounds otherwise than the C backend; the last bits of the image may differ");
@@ -115,8 +111,8 @@ static char *options_for(const struct cl *c, cl_device_id device, int chunks, in
 		snprintf(parts, sizeof parts, " -DCHUNK_SHIFT=%d", shift);
 	const char *exact = rounding & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT ? " -cl-fp32-correctly-rounded-divide-sqrt" : "";
 	return xtext("-cl-std=CL1.2%s -DLANES=%d -DTRANSPORT=%d%s -DPEAK=%d -DCHANNELS=%d -DSPECTRAL=%d -DHAS_GROUND=%d -DALL_ISOTROPIC=%d"
-	             " -DCOUNTED=%d -DBRANCHES=%d -DCHUNKS=%d%s", exact, (int)c->lanes, s->transport, waves, s->peak > 0, s->channels, s->spectral,
-	             s->has_ground, s->isotropic, s->counted, s->branches > 1, chunks, parts);
+	             " -DCOUNTED=%d -DBRANCHES=%d -DCHUNKS=%d%s", exact, (int)c->lanes, v->transport, waves, v->peak > 0, s->channels, s->spectral,
+	             s->surfaces.has_ground, v->isotropic, v->counted, s->branches > 1, chunks, parts);
 }
 
 static void set(struct cl *c, cl_uint arg, size_t size, const void *value)
@@ -137,7 +133,7 @@ static cl_mem buffer(struct cl *c, cl_mem_flags flags, const void *p, size_t n)
 
 static void load_tables(struct cl *c, const struct table *table, int chunks, int shift)
 {
-	for (int i = 0; i < N_TABLES; i++) {
+	for (int i = 0; i < N_BUFFERS; i++) {
 		size_t n = table[i].n, part = chunks > 1 && table[i].large ? (size_t)1 << shift : n;
 		for (int k = 0; k < (table[i].large ? chunks : 1); k++) {
 			size_t from = (size_t)k * part < n ? (size_t)k * part : n, own = n - from < part ? n - from : part;
@@ -148,33 +144,28 @@ static void load_tables(struct cl *c, const struct table *table, int chunks, int
 	}
 }
 
-static uint32 n_pixels(const struct job *j) { return (uint32)j->scene.width * (uint32)j->scene.height; }
-
-static size_t pixel_size(const struct job *j) { return (size_t)j->scene.film_sums * sizeof *j->film; }
-
-/* The job's part of the film that buffer i holds. */
-static void *film_part(const struct cl *c, uint32 i) { return (char *)c->job->film + i * (c->film_pixels * pixel_size(c->job)); }
+/* The part of a film that buffer i holds. */
+static void *film_part(const struct cl *c, const struct film *f, uint32 i) { return (char *)f->sum + i * (c->film_pixels * c->pixel_size); }
 
 /* Pixels of the film's buffer i. */
 static uint32 pixels_of(const struct cl *c, uint32 i)
 {
-	uint32 left = n_pixels(c->job) - i * c->film_pixels;
+	uint32 left = c->pixels - i * c->film_pixels;
 	return left < c->film_pixels ? left : c->film_pixels;
 }
 
 /* A film beyond one buffer is several; no launch writes into two. */
-static void load_film(struct cl *c, size_t limit)
+static void load_film(struct cl *c, const struct film *f, size_t limit)
 {
-	struct job *j = c->job;
-	size_t most = limit / pixel_size(j);
+	size_t most = limit / c->pixel_size;
 	if (!most)
-		die("OpenCL", "out of memory on the device: a pixel takes %zu bytes, a buffer %zu at most", pixel_size(j), limit);
-	c->film_pixels = most < n_pixels(j) ? (uint32)most : n_pixels(j);
-	c->n_films = (n_pixels(j) - 1) / c->film_pixels + 1;
+		die("OpenCL", "out of memory on the device: a pixel takes %zu bytes, a buffer %zu at most", c->pixel_size, limit);
+	c->film_pixels = most < c->pixels ? (uint32)most : c->pixels;
+	c->n_films = (c->pixels - 1) / c->film_pixels + 1;
 	c->film = xalloc(c->n_films, sizeof *c->film);
 	for (uint32 i = 0; i < c->n_films; i++)
-		c->film[i] = buffer(c, CL_MEM_READ_WRITE, film_part(c, i), pixels_of(c, i) * pixel_size(j));
-	c->overflow = buffer(c, CL_MEM_READ_WRITE, &j->overflow, sizeof j->overflow);
+		c->film[i] = buffer(c, CL_MEM_READ_WRITE, film_part(c, f, i), pixels_of(c, i) * c->pixel_size);
+	c->overflow = buffer(c, CL_MEM_READ_WRITE, &f->overflow, sizeof f->overflow);
 }
 
 /* Samples [first, first + n) of the pixels [from, to), which lie in one buffer of the film. */
@@ -193,11 +184,11 @@ static void launch(struct cl *c, uint32 from, uint32 to, uint32 first, uint32 n)
 	cl_check(clFinish(c->queue), "running the kernel");
 }
 
-static void need_memory(struct job *j, const struct table *table, cl_device_id device)
+static void need_memory(const struct cl *c, const struct table *table, cl_device_id device)
 {
 	cl_ulong has = 0;
-	double needs = (double)n_pixels(j) * (double)pixel_size(j);
-	for (int i = 0; i < N_TABLES; i++)
+	double needs = (double)c->pixels * (double)c->pixel_size;
+	for (int i = 0; i < N_BUFFERS; i++)
 		needs += 4.0 * (double)table[i].n;
 	cl_ask(device, CL_DEVICE_GLOBAL_MEM_SIZE, &has, sizeof has);
 	if (needs > (double)has)     /* a driver may take the machine's memory until it has none */
@@ -205,20 +196,21 @@ static void need_memory(struct job *j, const struct table *table, cl_device_id d
 		    needs / 0x1p30, (double)has / 0x1p30);
 }
 
-struct cl *cl_start(struct job *j, int number, int verbose)
+struct cl *cl_start(const struct setup *u, const struct film *f, int number, int verbose)
 {
 	struct cl *c = xalloc(1, sizeof *c);
 	cl_device_id device = cl_device(number, verbose);
-	struct table table[N_TABLES];
+	struct table table[N_BUFFERS];
 	size_t limit = buffer_limit(device), most = 1;
 	int chunks, cached;
 	cl_int error;
-	c->job = j;
+	c->pixels = (uint32)f->width * (uint32)f->height;
+	c->pixel_size = (size_t)f->n_sums * sizeof *f->sum;
 	shape(c, device);
-	tables(j, table);
-	need_memory(j, table, device);
+	tables(u, table);
+	need_memory(c, table, device);
 	int shift = divide(table, limit, &chunks);
-	char *options = options_for(c, device, chunks, shift);
+	char *options = options_for(c, &u->scene, device, chunks, shift);
 	c->context = clCreateContext(NULL, 1, &device, NULL, NULL, &error);
 	cl_check(error, "creating a context");
 	c->queue = clCreateCommandQueue(c->context, device, 0, &error);
@@ -229,7 +221,7 @@ struct cl *cl_start(struct job *j, int number, int verbose)
 	clGetKernelWorkGroupInfo(c->kernel, device, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL);
 	c->group = c->group < most ? c->group : most;
 	load_tables(c, table, chunks, shift);
-	load_film(c, limit);
+	load_film(c, f, limit);
 	launch(c, 0, 0, 0, 0);     /* of nothing: some drivers compile only now, which no clock shall see */
 	if (!cached)
 		cl_keep(c->program, device, options);
@@ -248,16 +240,18 @@ void cl_render(struct cl *c, uint32 pixel, uint32 pixels, uint32 first, uint32 n
 	}
 }
 
-void cl_finish(struct cl *c)
+void cl_read(const struct cl *c, struct film *f)
 {
-	struct job *j = c->job;
-	for (uint32 i = 0; i < c->n_films; i++) {
-		cl_check(clEnqueueReadBuffer(c->queue, c->film[i], CL_TRUE, 0, pixels_of(c, i) * pixel_size(j), film_part(c, i), 0,
-		                             NULL, NULL), "reading the film");
+	for (uint32 i = 0; i < c->n_films; i++)
+		cl_check(clEnqueueReadBuffer(c->queue, c->film[i], CL_TRUE, 0, pixels_of(c, i) * c->pixel_size, film_part(c, f, i), 0, NULL, NULL),
+		         "reading the film");
+	cl_check(clEnqueueReadBuffer(c->queue, c->overflow, CL_TRUE, 0, sizeof f->overflow, &f->overflow, 0, NULL, NULL), "reading the film");
+}
+
+void cl_free(struct cl *c)
+{
+	for (uint32 i = 0; i < c->n_films; i++)
 		clReleaseMemObject(c->film[i]);
-	}
-	cl_check(clEnqueueReadBuffer(c->queue, c->overflow, CL_TRUE, 0, sizeof j->overflow, &j->overflow, 0, NULL, NULL),
-	         "reading the film");
 	clReleaseMemObject(c->overflow);
 	for (cl_uint i = 0; i < c->n_buffers; i++)
 		clReleaseMemObject(c->table[i]);

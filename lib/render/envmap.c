@@ -8,7 +8,7 @@
 #include <string.h>
 #include <zlib.h>
 
-void map_read(const char *path, const double *scale, struct map *m)
+void envmap_read(const char *path, const double *scale, struct envmap *m)
 {
 	static const char *const names[] = { "R", "G", "B" };
 	struct exr image;
@@ -52,7 +52,7 @@ static double integrate(size_t n, const double *weight, uint32 *cdf)
 	return sum;
 }
 
-size_t map_cdf(const struct map *m, uint32 **cdf)
+size_t envmap_cdf(const struct envmap *m, uint32 **cdf)
 {
 	size_t width = (size_t)m->width, height = (size_t)m->height, n = height + 1 + height * (width + 1);
 	double *row = xalloc(height, sizeof *row), *weight = xalloc(width, sizeof *weight);

@@ -4,18 +4,18 @@
 
 #include "render/kern/scene.h"
 
-struct map {
+struct envmap {
 	int width, height;         /* 0: there is none */
 	float *rgb;                /* [row][column][3] radiance; top row +y, centre column -z, columns turn towards +x */
 	double scale[3];           /* by which the file's texels were multiplied */
 	uint32 crc;                /* of the texels as they were read: what a history says of it */
 };
 
-/* map_read - an EXR file with the channels R, G and B, or Y alone, times a scale; dies on a texel that is negative or not finite. */
-void map_read(const char *path, const double *scale, struct map *m);
+/* envmap_read - an EXR file with the channels R, G and B, or Y alone, times a scale; dies on a texel that is negative or not finite. */
+void envmap_read(const char *path, const double *scale, struct envmap *m);
 
 /* map_cdf - the integrals by which texels are drawn, as struct tables has them: in proportion to luminance x solid angle, each
  * probability a multiple of 2^-31. Returns their number, 0 for a map that is black. */
-size_t map_cdf(const struct map *m, uint32 **cdf);
+size_t envmap_cdf(const struct envmap *m, uint32 **cdf);
 
 #endif

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SHARE 0.5              /* of scattering above the cap: as many detours go on as end */
+#define SHARE 0.5              /* of scattering above the truncation: as many chains go on as end */
 #define HIGH 20                /* times as high as an even phase function is a peak */
 
 /* One wavelength of a table: nodes [n], p with a stride. */
@@ -17,35 +17,35 @@ struct row {
 	size_t stride;
 };
 
-/* Of the interval i and a cap: the part [*from, *to] of it, in fractions, where p is above. */
-static int above(const struct row *r, int i, double cap, double *from, double *to)
+/* The part [*from, *to] of it, in fractions, of the interval i where p is above the truncation. */
+static int above(const struct row *r, int i, double truncation, double *from, double *to)
 {
-	double a = r->p[(size_t)i * r->stride] - cap, b = r->p[(size_t)(i + 1) * r->stride] - cap;
+	double a = r->p[(size_t)i * r->stride] - truncation, b = r->p[(size_t)(i + 1) * r->stride] - truncation;
 	*from = a < 0 ? a / (a - b) : 0;
 	*to = b < 0 ? a / (a - b) : 1;
 	return a > 0 || b > 0;
 }
 
-/* Integral over the sphere of what is above a cap. */
-static double integral_above(const struct row *r, double cap)
+/* Integral over the sphere of what is above a truncation. */
+static double integral_above(const struct row *r, double truncation)
 {
 	double sum = 0, from, to;
 	for (int i = 0; i + 1 < r->n; i++)
-		if (above(r, i, cap, &from, &to)) {
+		if (above(r, i, truncation, &from, &to)) {
 			double h = (double)r->theta[i + 1] - r->theta[i], p0 = r->p[(size_t)i * r->stride], d = r->p[(size_t)(i + 1) * r->stride] - p0;
-			sum += phase_interval(r->theta[i] + from * h, (to - from) * h, p0 + from * d - cap, p0 + to * d - cap);
+			sum += phase_interval(r->theta[i] + from * h, (to - from) * h, p0 + from * d - truncation, p0 + to * d - truncation);
 		}
 	return sum;
 }
 
-static double cap_of(const struct row *r)
+static double truncation_of(const struct row *r)
 {
-	double low = 0, high = 0, whole = integral_above(r, 0);
+	double low = 0, high = 0, all = integral_above(r, 0);
 	for (int i = 0; i < r->n; i++)
 		high = fmax(high, r->p[(size_t)i * r->stride]);
 	for (int k = 0; k < 100; k++) {
 		double middle = 0.5 * (low + high);
-		if (integral_above(r, middle) > SHARE * whole)
+		if (integral_above(r, middle) > SHARE * all)
 			low = middle;
 		else
 			high = middle;
@@ -55,8 +55,8 @@ static double cap_of(const struct row *r)
 
 static int by_value(const void *a, const void *b) { return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b); }
 
-/* The nodes of the peak: the table's, and where a wavelength crosses its cap. Returns how many; theta may be NULL. */
-static int nodes(const struct medium *m, int class, const float *cap, float *theta)
+/* The nodes of the peak: the table's, and where a wavelength crosses its truncation. Returns how many; theta may be NULL. */
+static int nodes(const struct medium *m, int class, const float *truncation, float *theta)
 {
 	int n = 0, first = m->node[2 * class], count = m->node[2 * class + 1];
 	double *cross = xalloc((size_t)m->n_waves, sizeof *cross);
@@ -66,8 +66,8 @@ static int nodes(const struct medium *m, int class, const float *cap, float *the
 		n++;
 		int k = 0;
 		for (int w = 0; w < m->n_waves && i + 1 < count; w++) {
-			double a = (double)m->p[(size_t)(first + i) * (size_t)m->n_waves + (size_t)w] - cap[w];
-			double b = (double)m->p[(size_t)(first + i + 1) * (size_t)m->n_waves + (size_t)w] - cap[w];
+			double a = (double)m->p[(size_t)(first + i) * (size_t)m->n_waves + (size_t)w] - truncation[w];
+			double b = (double)m->p[(size_t)(first + i + 1) * (size_t)m->n_waves + (size_t)w] - truncation[w];
 			if (a * b < 0)
 				cross[k++] = m->theta[first + i] + a / (a - b) * ((double)m->theta[first + i + 1] - m->theta[first + i]);
 		}
@@ -85,23 +85,23 @@ static int nodes(const struct medium *m, int class, const float *cap, float *the
 	return n;
 }
 
-void peak_make(struct peak *k, const struct medium *m, int class)
+void forward_peak_make(struct forward_peak *k, const struct medium *m, int class)
 {
 	size_t waves = (size_t)m->n_waves, old = m->n_nodes;
 	int high = class >= 0;
 	memset(k, 0, sizeof *k);
-	k->cap = xalloc(waves, sizeof *k->cap);
+	k->truncation = xalloc(waves, sizeof *k->truncation);
 	for (size_t w = 0; w < waves && class >= 0; w++) {
 		struct row r = { m->node[2 * class + 1], m->theta + m->node[2 * class], m->p + (size_t)m->node[2 * class] * waves + w, waves };
 		double most = 0;
-		k->cap[w] = (float)cap_of(&r);
+		k->truncation[w] = (float)truncation_of(&r);
 		for (int i = 0; i < r.n; i++)
 			most = fmax(most, r.p[(size_t)i * waves]);
 		high &= most * 4 * M_PI > HIGH;
 	}
 	k->share = high ? SHARE : 0;
 	k->n_classes = m->n_classes + 1 + high;
-	size_t n = high ? (size_t)nodes(m, class, k->cap, NULL) : 0;
+	size_t n = high ? (size_t)nodes(m, class, k->truncation, NULL) : 0;
 	k->range = xalloc((size_t)k->n_classes, 2 * sizeof *k->range);
 	k->theta = xalloc(old + n, sizeof *k->theta);
 	k->p = xalloc(old + n, waves * sizeof *k->p);
@@ -114,7 +114,7 @@ void peak_make(struct peak *k, const struct medium *m, int class)
 		return;
 	k->range[2 * (m->n_classes + 1)] = (int32_t)old;
 	k->range[2 * (m->n_classes + 1) + 1] = (int32_t)n;
-	nodes(m, class, k->cap, k->theta + old);
+	nodes(m, class, k->truncation, k->theta + old);
 	double *theta = xalloc(n, sizeof *theta), *p = xalloc(n, sizeof *p);
 	for (size_t w = 0; w < waves; w++) {
 		size_t at = (size_t)m->node[2 * class], last = at + (size_t)m->node[2 * class + 1] - 2;
@@ -123,7 +123,7 @@ void peak_make(struct peak *k, const struct medium *m, int class)
 				at++;
 			double p0 = m->p[at * waves + w], p1 = m->p[(at + 1) * waves + w];
 			theta[i] = k->theta[old + i];
-			p[i] = fmax(0, p0 + (p1 - p0) * (theta[i] - m->theta[at]) / ((double)m->theta[at + 1] - m->theta[at]) - k->cap[w]);
+			p[i] = fmax(0, p0 + (p1 - p0) * (theta[i] - m->theta[at]) / ((double)m->theta[at + 1] - m->theta[at]) - k->truncation[w]);
 			k->p[(old + i) * waves + w] = (float)p[i];
 		}
 		phase_cdf((int)n, theta, p, m->n_waves, k->cdf + old * waves + w);
@@ -132,9 +132,9 @@ void peak_make(struct peak *k, const struct medium *m, int class)
 	free(p);
 }
 
-void peak_free(struct peak *k)
+void forward_peak_free(struct forward_peak *k)
 {
-	free(k->cap);
+	free(k->truncation);
 	free(k->range);
 	free(k->theta);
 	free(k->p);

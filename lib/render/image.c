@@ -115,14 +115,13 @@ int image_whole(const struct image *m)
 
 /* -------------------------------------------------------------------- from the renderer */
 
-void image_of(struct image *out, struct job *j, const struct medium *m, long long from, long long to, long long total,
-              const char *history, const char *command)
+void image_of(struct image *out, const struct scene *s, const struct film *f, const struct medium *m, long long from, long long to,
+              long long total, const char *history, const char *command)
 {
 	char *line = total ? xtext("%s --samples %lld", command, total) : xtext("%s", command);
-	*out = (struct image){ .width = j->scene.width, .height = j->scene.height, .n_sums = j->scene.film_sums, .sum = j->film,
-		.n_waves = j->scene.spectral ? m->n_waves : 0, .depth_exponent = -ilogbf(j->scene.depth_scale), .n_ranges = 1,
+	*out = (struct image){ .width = f->width, .height = f->height, .n_sums = f->n_sums, .film = f,
+		.n_waves = s->spectral ? m->n_waves : 0, .depth_exponent = -ilogbf(s->depth_scale), .n_ranges = 1,
 		.total = total, .history = tab_join(history, line, NULL) };
-	j->film = NULL;
 	free(line);
 	out->range = xalloc(1, sizeof *out->range);
 	out->range[0][0] = from;
@@ -147,28 +146,37 @@ static double variance(const int64 *sum, long long n)
 	return n > 1 && spread > 0 ? spread / ((double)n * (double)(n - 1)) / (FILM_UNIT * FILM_UNIT) : 0;
 }
 
+/* The sums of a pixel; room[n_sums]. */
+static const int64 *sums_of(const struct image *m, size_t pixel, int64 *room)
+{
+	if (!m->film)
+		return m->sum + pixel * (size_t)m->n_sums;
+	film_pixel(m->film, pixel, room);
+	return room;
+}
+
 static void layers(struct exr *e, const struct image *m)
 {
+	enum { N = sizeof finished / sizeof *finished };
 	long long n = samples(m);
-	size_t stride = (size_t)m->n_sums;
-	for (size_t k = 0; k < sizeof finished / sizeof *finished; k++) {
-		float *out = exr_add(e, names[finished[k]]);
-		for (size_t i = 0; i < pixels(m); i++)
-			out[i] = (float)((double)m->sum[i * stride + (size_t)finished[k]] / FILM_UNIT / (double)n);
-	}
-	for (int w = 0; w < m->n_waves; w++) {
-		float *out = exr_add(e, m->wave[w]);
-		for (size_t i = 0; i < pixels(m); i++)
-			out[i] = (float)((double)m->sum[i * stride + FILM_SUMS + (size_t)w] / FILM_UNIT / (double)n);
-	}
+	float **out = xalloc(N + (size_t)m->n_waves, sizeof *out);
+	int64 *room = xalloc((size_t)m->n_sums, sizeof *room);
+	for (int k = 0; k < N; k++)
+		out[k] = exr_add(e, names[finished[k]]);
+	for (int w = 0; w < m->n_waves; w++)
+		out[N + w] = exr_add(e, m->wave[w]);
 	float *depth = exr_add(e, "depth.Z"), *spread = exr_add(e, "variance.Y"), *count = exr_add(e, "count");
 	e->channel[e->n - 1].is_uint = 1;
 	for (size_t i = 0; i < pixels(m); i++) {
-		const int64 *sum = m->sum + i * stride;
+		const int64 *sum = sums_of(m, i, room);
+		for (int k = 0; k < N + m->n_waves; k++)
+			out[k][i] = (float)((double)sum[k < N ? finished[k] : FILM_SUMS + k - N] / FILM_UNIT / (double)n);
 		depth[i] = sum[SUM_ALPHA] ? (float)ldexp((double)sum[SUM_DEPTH] / (double)sum[SUM_ALPHA], m->depth_exponent) : 0;
 		spread[i] = (float)variance(sum, n);
 		memcpy(&count[i], &(uint32_t){ (uint32_t)n }, 4);
 	}
+	free(out);
+	free(room);
 }
 
 /* -------------------------------------------------------------------- sums, each as two channels of 32 bits */
@@ -182,18 +190,24 @@ static char *half_name(const struct image *m, int sum, int half)
 
 static void put_sums(struct exr *e, const struct image *m)
 {
+	float **out = xalloc(2 * (size_t)m->n_sums, sizeof *out);
+	int64 *room = xalloc((size_t)m->n_sums, sizeof *room);
 	for (int k = 0; k < 2 * m->n_sums; k++) {
 		if (!in_use(k / 2))
 			continue;
 		char *name = half_name(m, k / 2, k % 2);
-		float *out = exr_add(e, name);
+		out[k] = exr_add(e, name);
 		e->channel[e->n - 1].is_uint = 1;
-		for (size_t i = 0; i < pixels(m); i++) {
-			uint32_t bits = (uint32_t)((uint64)m->sum[i * (size_t)m->n_sums + (size_t)k / 2] >> (k % 2 ? 32 : 0));
-			memcpy(&out[i], &bits, 4);
-		}
 		free(name);
 	}
+	for (size_t i = 0; i < pixels(m); i++) {
+		const int64 *sum = sums_of(m, i, room);
+		for (int k = 0; k < 2 * m->n_sums; k++)
+			if (out[k])
+				memcpy(&out[k][i], &(uint32_t){ (uint32_t)((uint64)sum[k / 2] >> (k % 2 ? 32 : 0)) }, 4);
+	}
+	free(out);
+	free(room);
 }
 
 static void get_sums(const char *path, const struct exr *e, struct image *m)

@@ -4,7 +4,8 @@
 #define RENDER_IMAGE_H
 
 #include "format/exr.h"
-#include "render/scene_setup.h"
+#include "medium/medium.h"
+#include "render/film.h"
 
 #define IMAGE_SAMPLES 1000000000     /* a pixel, at most */
 #define IMAGE_WAVES 320              /* of a spectral image, at most: each takes three channels of a part */
@@ -12,6 +13,7 @@
 struct image {
 	int width, height;
 	int n_sums;                  /* of a pixel: see kern/film.h */
+	const struct film *film;     /* that has the sums; else they are */
 	int64 *sum;                  /* [pixel][n_sums] */
 	int n_waves;                 /* of a spectral image, else 0 */
 	char (*wave)[EXR_NAME];      /* their channels' names */
@@ -25,12 +27,13 @@ struct image {
 /* image_range - read "A:B", samples A to B - 1. Returns NULL, or what is wrong. */
 const char *image_range(const char *text, long long *from, long long *to);
 
-/* image_of - samples [from, to) as rendered by a job, whose film it takes over.
- * Given: total     as above
+/* image_of - samples [from, to) as rendered: what the film has whenever the image is written. It must outlive the image.
+ * Given: s         the scene that was rendered
+ *        total     as above
  *        history   of the medium and the scene
  *        command   vrender's own line without --samples */
-void image_of(struct image *out, struct job *j, const struct medium *m, long long from, long long to, long long total,
-              const char *history, const char *command);
+void image_of(struct image *out, const struct scene *s, const struct film *f, const struct medium *m, long long from, long long to,
+              long long total, const char *history, const char *command);
 
 /* image_read - read an image that has its sums; dies on any other. */
 void image_read(const char *path, struct image *out);

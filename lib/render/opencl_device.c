@@ -1,6 +1,6 @@
 /* The OpenCL devices: which there are, and which is meant. */
 #include "base/die.h"
-#include "render/scene_setup.h"
+#include "render/backend.h"
 #include "render/opencl.h"
 
 #include <stdio.h>

@@ -119,7 +119,7 @@ static struct table divide(int n, size_t waves, const float *theta, const float 
 }
 
 /* The index of one class: rows of [first part, parts] from step on, parts appended to a->angle. */
-static void index_angles(struct angles *a, const struct table *t, int first, size_t step)
+static void index_angles(struct phase_sampler *a, const struct table *t, int first, size_t step)
 {
 	double *place = xalloc((size_t)t->n, sizeof *place);
 	for (int i = 0; i < t->n; i++)
@@ -160,11 +160,11 @@ static void fill_intervals(const struct table *t, size_t waves, float *out)
 	}
 }
 
-void angles_make(struct angles *a, int n_classes, int n_waves, const int32_t *range, const float *theta, const float *p,
+void phase_sampler_make(struct phase_sampler *a, int n_classes, int n_waves, const int32_t *range, const float *theta, const float *p,
                  const uint32_t *cdf)
 {
 	size_t waves = (size_t)n_waves, columns = 0, intervals = 0;
-	*a = (struct angles){ .isotropic = 1, .n_phase = PHASE_ROW * (size_t)n_classes, .n_angle = 2 * ANGLE_STEPS * (size_t)n_classes };
+	*a = (struct phase_sampler){ .isotropic = 1, .n_phase = PHASE_ROW * (size_t)n_classes, .n_angle = 2 * ANGLE_STEPS * (size_t)n_classes };
 	a->phase = xalloc(a->n_phase, sizeof *a->phase);
 	a->angle = xalloc(a->n_angle, sizeof *a->angle);
 	for (size_t k = 0; k < (size_t)n_classes; k++) {
@@ -195,7 +195,7 @@ void angles_make(struct angles *a, int n_classes, int n_waves, const int32_t *ra
 	memset(a->interval + a->n_interval - 4, 0, 4 * sizeof *a->interval);
 }
 
-void angles_free(struct angles *a)
+void phase_sampler_free(struct phase_sampler *a)
 {
 	free(a->phase);
 	free(a->interval);

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-struct angles {
+struct phase_sampler {
 	int32_t *phase;            /* [class][PHASE_ROW] */
 	float *interval;           /* [interval][4 + 2 wave], and four more */
 	int32_t *alias;            /* [column][wave][2] */
@@ -14,11 +14,11 @@ struct angles {
 	size_t n_phase, n_interval, n_alias, n_angle;    /* numbers of elements */
 };
 
-/* angles_make - of the phase tables of n_classes classes, as in struct medium: range[class][2], theta[node] rad ascending from 0 to pi,
+/* phase_sampler_make - of the phase tables of n_classes classes, as in struct medium: range[class][2], theta[node] rad ascending from 0 to pi,
  * p[node][wave], cdf[node][wave]. Dies where an index would pass 2^31. */
-void angles_make(struct angles *a, int n_classes, int n_waves, const int32_t *range, const float *theta, const float *p,
+void phase_sampler_make(struct phase_sampler *a, int n_classes, int n_waves, const int32_t *range, const float *theta, const float *p,
                  const uint32_t *cdf);
 
-void angles_free(struct angles *a);
+void phase_sampler_free(struct phase_sampler *a);
 
 #endif

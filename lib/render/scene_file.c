@@ -177,7 +177,7 @@ static void light(const char *path, config_setting_t *g, struct scenefile *s)
 	config_setting_t *t = need(path, g, "type"), *file = config_setting_get_member(g, "file");
 	const char *type = config_setting_get_string(t);
 	int sky = type && !strcmp(type, "environment");
-	if ((!sky || file) && s->n_suns + s->n_quads + (s->map.width > 0) == MAX_LIGHTS)
+	if ((!sky || file) && s->n_lights + (s->map.width > 0) == MAX_LIGHTS)
 		bad(path, g, "more than %d suns, quads and maps", MAX_LIGHTS);
 	if (sky && file) {
 		only(path, g, "type file radiance");
@@ -189,7 +189,7 @@ static void light(const char *path, config_setting_t *g, struct scenefile *s)
 		if (config_setting_get_member(g, "radiance"))
 			strength(path, g, "radiance", rgb);
 		char *map = beside(path, name);
-		map_read(map, rgb, &s->map);
+		envmap_read(map, rgb, &s->map);
 		free(map);
 	} else if (sky) {
 		only(path, g, "type radiance file");
@@ -197,9 +197,11 @@ static void light(const char *path, config_setting_t *g, struct scenefile *s)
 		for (int i = 0; i < 3; i++)
 			s->environment[i] += rgb[i];
 	} else if (type && !strcmp(type, "sun")) {
-		sun(path, g, &s->sun[s->n_suns++]);
+		s->light[s->n_lights].kind = LIGHT_SUN;
+		sun(path, g, &s->light[s->n_lights++].sun);
 	} else if (type && !strcmp(type, "quad")) {
-		quad(path, g, &s->quad[s->n_quads++]);
+		s->light[s->n_lights].kind = LIGHT_QUAD;
+		quad(path, g, &s->light[s->n_lights++].quad);
 	} else {
 		bad(path, t, "type must be \"environment\", \"sun\" or \"quad\"");
 	}
@@ -209,6 +211,22 @@ static void list(FILE *f, int n, const double *v)
 {
 	for (int i = 0; i < n; i++)
 		fprintf(f, "%c%.17g", i ? ',' : ' ', v[i]);
+}
+
+static void list_light(FILE *f, const struct scene_light *l)
+{
+	if (l->kind == LIGHT_SUN) {
+		fprintf(f, " sun");
+		list(f, 3, l->sun.direction);
+		list(f, 3, l->sun.irradiance);
+		list(f, 1, &l->sun.angle);
+	} else {
+		fprintf(f, " quad");
+		list(f, 3, l->quad.corner);
+		list(f, 3, l->quad.edge[0]);
+		list(f, 3, l->quad.edge[1]);
+		list(f, 3, l->quad.radiance);
+	}
 }
 
 static char *canonical(const struct scenefile *s)
@@ -223,19 +241,10 @@ static char *canonical(const struct scenefile *s)
 	        s->height, s->medium_position[0], s->medium_position[1], s->medium_position[2]);
 	fprintf(f, " environment");
 	list(f, 3, s->environment);
-	for (int i = 0; i < s->n_suns; i++) {
-		fprintf(f, " sun");
-		list(f, 3, s->sun[i].direction);
-		list(f, 3, s->sun[i].irradiance);
-		list(f, 1, &s->sun[i].angle);
-	}
-	for (int i = 0; i < s->n_quads; i++) {
-		fprintf(f, " quad");
-		list(f, 3, s->quad[i].corner);
-		list(f, 3, s->quad[i].edge[0]);
-		list(f, 3, s->quad[i].edge[1]);
-		list(f, 3, s->quad[i].radiance);
-	}
+	for (int kind = LIGHT_SUN; kind <= LIGHT_QUAD; kind++)
+		for (int i = 0; i < s->n_lights; i++)
+			if (s->light[i].kind == kind)
+				list_light(f, &s->light[i]);
 	if (s->map.width) {
 		fprintf(f, " map %dx%d crc %08x", s->map.width, s->map.height, s->map.crc);
 		list(f, 3, s->map.scale);

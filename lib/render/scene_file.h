@@ -15,6 +15,15 @@ struct quad {
 	double radiance[3];        /* to the side of edge[0] x edge[1] */
 };
 
+/* A light, by its kind: LIGHT_SUN or LIGHT_QUAD (the map is apart: there is one at most). */
+struct scene_light {
+	int kind;
+	union {
+		struct sun sun;
+		struct quad quad;
+	};
+};
+
 struct scenefile {
 	double position[3], target[3], up[3], fov;     /* camera; fov in degrees along the longer side */
 	int width, height;
@@ -23,10 +32,9 @@ struct scenefile {
 	int has_ground;
 	double ground_height, ground_albedo;
 	double environment[3];     /* linear RGB, as all strengths */
-	int n_suns, n_quads;
-	struct sun sun[MAX_LIGHTS];
-	struct quad quad[MAX_LIGHTS];
-	struct map map;
+	int n_lights;
+	struct scene_light light[MAX_LIGHTS];    /* as written */
+	struct envmap map;
 	char *history;             /* one line: the scene in canonical form, without file names */
 };
 

@@ -1,4 +1,4 @@
-/* The kernels' gathering of particles: the grid misses none, flights agree with the transmittance, and Poisson particles transmit
+/* The kernels' particle queries: the grid misses none, flights agree with the transmittance, and Poisson particles transmit
  * as they must. With the argument "table": mean transmittance against C / A, for the chart. */
 #include "base/die.h"
 #include "medium/particle_grid.h"
@@ -18,41 +18,43 @@ struct cube {
 	struct medium medium;
 	struct scene scene;
 	struct tables tables;
-	float disc[CLASSES * WAVES];
+	float disc_radius2[CLASSES * WAVES];
 };
 
 /* Fat rays are cylinders of that area. */
 static void as_model(struct cube *q, int transport, double area)
 {
-	struct scene *s = &q->scene;
-	s->transport = transport;
-	s->fat = (float)area;
-	s->reach2 = transport == TRANSPORT_EXPLICIT ? s->largest : s->fat / PI;
-	s->reach = sqrtf(s->reach2) + 1e-6f;
+	struct volume *v = &q->scene.volume;
+	v->transport = transport;
+	v->fat_area = (float)area;
+	v->query_radius2 = transport == TRANSPORT_EXPLICIT ? v->largest : v->fat_area / PI;
+	v->query_radius = sqrtf(v->query_radius2) + 1e-6f;
 	for (int a = 0; a < 3; a++) {
-		float half = 0.5f * (float)s->cells[a] * s->cell[a];
-		s->grid_centre[a] = s->grid_low[a] + half;
-		s->grid_reached[a] = half + s->reach;
+		float half = 0.5f * (float)v->cells[a] * v->cell[a];
+		v->grid_centre[a] = v->grid_low[a] + half;
+		v->grid_reached[a] = half + v->query_radius;
 	}
 }
 
+static const struct waves three = { WAVES, 0, 1 };
+
 /* A ray walked to its end. */
-static struct march walk(const struct cube *q, struct ray r, float t_end, int flight, const struct random *random)
+static struct volume_walk walk(const struct cube *q, struct ray r, float t_end, int flight, const struct random *random)
 {
-	struct march g;
-	struct waves w = { WAVES, 0 };
+	const struct volume *v = &q->scene.volume;
+	struct volume_walk g;
 	memset(&g, 0, sizeof g);
-	march_begin(&q->scene, &q->tables, &g, ALL_LANES, r, t_end, flight, w, 1, random);
-	while (any(marching(&q->scene, &g)))
-		march_on(&q->scene, &q->tables, &g, w, 1, random);
+	volume_begin(&q->scene, v, &q->tables, &g, ALL_LANES, r, t_end, flight, three, random);
+	while (any(volume_going(v, &g)))
+		volume_step(&q->scene, v, &q->tables, &g, three, random);
 	return g;
 }
 
 static void transmittance(const struct cube *q, struct ray r, float t_end, float *out)
 {
 	struct random none = { .key = 0 };
-	struct march g = walk(q, r, t_end, 0, &none);
-	shadow_end(&q->scene, &q->tables, &g, ALL_LANES, (struct waves){ WAVES, 0 }, out);
+	struct volume_walk g = walk(q, r, t_end, 0, &none);
+	volume_transmittance(&q->scene, &q->scene.volume, &q->tables, &g, ALL_LANES, three, out);
 }
 
 /* c[class][wave]: areas in m^2. */
@@ -65,10 +67,11 @@ static struct cube *make(size_t n, const double *c, uint32 seed)
 	m->c_ext = xalloc(CLASSES * WAVES, sizeof(double));
 	for (int i = 0; i < CLASSES * WAVES; i++) {
 		m->c_ext[i] = c[i] * 1e12;
-		q->disc[i] = (float)(c[i] / M_PI);
-		q->scene.largest = fmaxf(q->scene.largest, q->disc[i]);
+		q->disc_radius2[i] = (float)(c[i] / M_PI);
+		q->scene.volume.largest = fmaxf(q->scene.volume.largest, q->disc_radius2[i]);
 	}
 	m->half[0] = m->half[1] = m->half[2] = 0.5;
+	m->kind = MEDIUM_PARTICLES;
 	m->n_particles = n;
 	m->particle = xalloc(n, 4 * sizeof(float));
 	for (size_t i = 0; i < n; i++) {
@@ -77,17 +80,17 @@ static struct cube *make(size_t n, const double *c, uint32 seed)
 			m->particle[4 * i + (size_t)a] = draw(&r, a) - 0.5f;
 		memcpy(&m->particle[4 * i + 3], &(int32_t){ (int32_t)(draw_bits(&r, 3) & 1) }, 4);
 	}
-	grid_build(m);
+	particle_grid_build(m);
 	q->scene.n_waves = q->scene.carried = WAVES;
 	q->scene.n_groups = 1;
-	q->scene.n_classes = CLASSES;
-	q->scene.only_class = NONE;
+	q->scene.volume.n_classes = CLASSES;
+	q->scene.volume.only_class = NONE;
 	for (int a = 0; a < 3; a++) {
-		q->scene.cells[a] = m->cells[a];
-		q->scene.grid_low[a] = m->low[a];
-		q->scene.cell[a] = m->cell[a];
+		q->scene.volume.cells[a] = m->cells[a];
+		q->scene.volume.grid_low[a] = m->low[a];
+		q->scene.volume.cell[a] = m->cell[a];
 	}
-	q->tables = (struct tables){ .disc = q->disc, .particle = m->particle, .first = (const int *)m->first };
+	q->tables = (struct tables){ .disc_radius2 = q->disc_radius2, .particle = m->particle, .first = (const int *)m->first };
 	as_model(q, TRANSPORT_EXPLICIT, 0);
 	return q;
 }
@@ -103,7 +106,7 @@ static void drop(struct cube *q)
 /* First particle met at a wavelength, and the transmittance, by looking at every one. */
 static int brute(const struct cube *q, struct ray r, float t_end, int wave, const struct random *random, double *through)
 {
-	int best = NONE, fat = q->scene.transport == TRANSPORT_FAT_RAY;
+	int best = NONE, fat = q->scene.volume.transport == TRANSPORT_FAT_RAY;
 	float end = t_end;
 	*through = 1;
 	for (size_t i = 0; i < q->medium.n_particles; i++) {
@@ -113,11 +116,11 @@ static int brute(const struct cube *q, struct ray r, float t_end, int wave, cons
 		struct vec v = vec3(p[0] - r.from.x, p[1] - r.from.y, p[2] - r.from.z);
 		float depth = dot3(v, r.along);
 		struct vec off = sub(v, scale(r.along, depth));
-		float disc = q->disc[class * WAVES + wave], d2 = dot3(off, off);
-		if (!(depth > 0.f) || !(depth < end) || (int)i == r.skip || !(d2 < (fat ? q->scene.fat / PI : disc)))
+		float radius2 = q->disc_radius2[class * WAVES + wave], d2 = dot3(off, off);
+		if (!(depth > 0.f) || !(depth < end) || (int)i == r.skip || !(d2 < (fat ? q->scene.volume.fat_area / PI : radius2)))
 			continue;
-		*through *= fat ? 1 - fmin(1, PI * disc / q->scene.fat) : 0;
-		if (depth < t_end && (!fat || coin(random, (int)i) < disc * (PI / q->scene.fat))) {
+		*through *= fat ? 1 - fmin(1, PI * radius2 / q->scene.volume.fat_area) : 0;
+		if (depth < t_end && (!fat || coin(random, (int)i) < radius2 * (PI / q->scene.volume.fat_area))) {
 			t_end = depth;
 			best = (int)i;
 		}
@@ -150,7 +153,7 @@ static void compare(size_t n, double area, double wide, const char *what)
 		float end = k % 5 ? FAR : 1.2f;
 		struct ray r = some_ray(k, n);
 		struct random random = random_of(3, k, 0);
-		struct gather g = walk(q, r, end, 1, &random).gather;
+		struct particle_query g = walk(q, r, end, 1, &random).particles;
 		float all[WAVES];
 		transmittance(q, r, end, all);
 		for (int j = 0; j < WAVES; j++) {
@@ -172,17 +175,16 @@ static void flights(int attenuation)
 	const double area = 1e-3, c[] = { area, area, area, 2 * area, 2 * area, 2 * area };
 	const int n = 200000;
 	struct cube *q = make(1000, c, 11);
-	struct waves w = { WAVES, 0 };
 	struct ray r = { vec3(-1, 0.05f, -0.02f), vec3(1, 0, 0), inverse3(vec3(1, 0, 0)), NONE };
-	float through[WAVES], event[CARRIED];
+	float through[WAVES], flight_pdf[CARRIED];
 	double passed = 0, depth = 0, depth2 = 0;
 	as_model(q, TRANSPORT_FAT_RAY, 5e-3);
-	q->scene.attenuation = attenuation;
+	q->scene.volume.attenuation = attenuation;
 	transmittance(q, r, FAR, through);
 	for (int k = 0; k < n; k++) {
 		struct random random = random_of(21, (uint32)k, 0);
-		struct march g = walk(q, r, FAR, 1, &random);
-		struct collision hit = flight_end(&q->scene, &q->tables, &g, ALL_LANES, w, 1, &random, event);
+		struct volume_walk g = walk(q, r, FAR, 1, &random);
+		struct collision hit = volume_end(&q->scene, &q->scene.volume, &q->tables, &g, ALL_LANES, three, &random, flight_pdf);
 		passed += !any(hit.happened);
 		depth += any(hit.happened) ? hit.point.x + 1 : 0;
 		depth2 += any(hit.happened) ? pow(hit.point.x + 1, 2) : 0;
@@ -228,7 +230,7 @@ static struct moments transmittances(double tau, double c, double a, int transpo
 	for (int k = 0; k < cubes; k++) {
 		struct cube *q = make(poisson(tau / c, (uint32)(k + 1)), all, (uint32)(1000 + k));
 		as_model(q, transport, a);
-		q->scene.attenuation = attenuation;
+		q->scene.volume.attenuation = attenuation;
 		for (int axis = 0; axis < 3; axis++)
 			for (int i = 0; i < side * side; i++) {
 				float p[3], d[3] = { 0, 0, 0 }, through[WAVES];

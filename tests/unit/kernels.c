@@ -17,16 +17,16 @@ int main(void)
 		float x = (float)i * 0x1p-21f, y = (float)i * 86.9f / 2000000, z = (float)i * 6.2831853f / 2000000, s, c;
 		worst_log = fmax(worst_log, fabs(neglog(x) + log(x)) / fmax(1, fabs(log(x))));
 		worst_exp = fmax(worst_exp, fabs(expneg(y) / exp(-(double)y) - 1) / (1 + y));
-		sincos_of(z, &s, &c);
+		fv_sincos(z, &s, &c);
 		worst_sin = fmax(worst_sin, fmax(fabs(s - sin(z)), fabs(c - cos(z))));
-		worst_atan = fmax(worst_atan, fabs(atan_of(x < 1 ? x : 1, 1) / atan(x < 1 ? x : 1) - 1));
+		worst_atan = fmax(worst_atan, fabs(fv_atan_octant(x < 1 ? x : 1, 1) / atan(x < 1 ? x : 1) - 1));
 	}
 	ok(worst_log < 1.5e-7, "neglog: %.2g of max(1, |log x|)", worst_log);
 	ok(worst_exp < 1e-7, "expneg: %.2g (1 + x), relative", worst_exp);
 	ok(worst_sin < 2e-7, "sin, cos: %.2g", worst_sin);
 	ok(worst_atan < 5e-7, "atan: %.2g, relative", worst_atan);
 	float small_s, small_c;
-	sincos_of(1e-5f, &small_s, &small_c);
+	fv_sincos(1e-5f, &small_s, &small_c);
 	ok(fabs(small_s / sin((double)1e-5f) - 1) < 1e-7, "sin is relative near 0");
 
 	/* angles between unit vectors, near both ends as in the middle, in units of the rounding of the vectors */
@@ -44,9 +44,9 @@ int main(void)
 	for (int i = -1000000; i <= 1000000; i++) {
 		float t = (float)i * 3.1415925e-6f, r = bits_float(0x3f800000u + ((uint32)i * 0x9e3779b9u >> 4) % 0x4000000u);
 		float y = r * (float)sin(t), x = r * (float)cos(t);
-		worst_turn = fmax(worst_turn, fabs(turn_of(y, x) - atan2(y, x)));
+		worst_turn = fmax(worst_turn, fabs(fv_atan2(y, x) - atan2(y, x)));
 	}
-	ok(worst_turn < 8e-7 && turn_of(0.f, 0.f) == 0.f && turn_of(0.f, -1.f) == PI, "turn_of: %.2g rad", worst_turn);
+	ok(worst_turn < 8e-7 && fv_atan2(0.f, 0.f) == 0.f && fv_atan2(0.f, -1.f) == PI, "fv_atan2: %.2g rad", worst_turn);
 
 	ok(one_value(1.f) == 1 << 30 && one_value(-0.25f) == -(1 << 28) && one_value(0x1p-31f) == 1 && one_value(0.f) == 0,
 	   "the film's unit is 2^-30, rounded to the nearest");

@@ -1,7 +1,7 @@
 /* Lights as the kernels have them: a map is drawn as tabulated and found where it is drawn; quads close a box. */
 #include "base/die.h"
 #include "format/exr.h"
-#include "render/kern/film.h"
+#include "render/kern/light.h"
 #include "render/envmap.h"
 #include "support/tap.h"
 
@@ -18,40 +18,40 @@ static uint32 bits(void)
 }
 
 /* A map of a few bright texels over a dim ground, one row black, and what the kernels need of it. */
-static void map_make(int width, int height, struct map *m, struct scene *s, struct tables *t)
+static void map_make(int width, int height, struct envmap *m, struct lights *l, struct tables *t)
 {
 	uint32 *cdf;
-	*m = (struct map){ .width = width, .height = height, .rgb = xalloc((size_t)width * (size_t)height, 3 * sizeof(float)) };
+	*m = (struct envmap){ .width = width, .height = height, .rgb = xalloc((size_t)width * (size_t)height, 3 * sizeof(float)) };
 	for (int i = 0; i < width * height; i++)
 		for (int c = 0; c < 3; c++)
 			m->rgb[3 * i + c] = i / width == height / 3 ? 0 : bits() % 50 ? 0.01f * (float)(c + 1) : (float)(bits() % 1000);
-	memset(s, 0, sizeof *s);
-	s->map_width = width;
-	s->map_height = height;
-	s->map_angle = (float)(4 * M_PI / width * sin(M_PI / 2 / height));
-	s->n_lights = s->n_drawn = 1;
-	s->pick = 1;
-	s->light[0].kind = LIGHT_MAP;
+	memset(l, 0, sizeof *l);
+	l->map_width = width;
+	l->map_height = height;
+	l->map_angle = (float)(4 * M_PI / width * sin(M_PI / 2 / height));
+	l->n = 1;
+	l->pick = 1;
+	l->light[0].kind = LIGHT_MAP;
 	memset(t, 0, sizeof *t);
-	ok(map_cdf(m, &cdf) == (size_t)height + 1 + (size_t)height * ((size_t)width + 1), "%d x %d: integrals made", width, height);
+	ok(envmap_cdf(m, &cdf) == (size_t)height + 1 + (size_t)height * ((size_t)width + 1), "%d x %d: integrals made", width, height);
 	t->map = m->rgb;
 	t->map_cdf = (const int *)cdf;
 }
 
 static void map_test(int width, int height)
 {
-	struct map m;
-	struct scene s;
+	struct envmap m;
+	struct lights l;
 	struct tables t;
-	map_make(width, height, &m, &s, &t);
+	map_make(width, height, &m, &l, &t);
 	double all = 0, spheres = 0, flux = 0, worst = 0;
 	for (int r = 0; r < height; r++)
 		for (int c = 0; c < width; c++) {
 			double angle = 2 * M_PI / width * (cos(M_PI * r / height) - cos(M_PI * (r + 1) / height));
-			all += map_density(&s, &t, ALL_LANES, r, c) * angle;
-			spheres += texel_angle(&s, r);
+			all += envmap_pdf(&l, &t, ALL_LANES, r, c) * angle;
+			spheres += texel_angle(&l, r);
 			flux += m.rgb[3 * (r * width + c) + 1] * angle;
-			worst = fmax(worst, fabs(texel_angle(&s, r) / angle - 1));
+			worst = fmax(worst, fabs(texel_angle(&l, r) / angle - 1));
 		}
 	ok(fabs(all - 1) < 1e-6 && fabs(spheres / (4 * M_PI) - 1) < 1e-6 && worst < 1e-5,
 	   "%d x %d: densities integrate to 1 %+.1g, texels to the sphere %+.1g (each within %.1g)", width, height, all - 1,
@@ -63,13 +63,13 @@ static void map_test(int width, int height)
 	double sum = 0, sum2 = 0, length = 0;
 	for (int i = 0; i < n; i++) {
 		int row, column, r, c;
-		struct vec d = map_draw(&s, &t, ALL_LANES, bits(), bits(), &row, &column);
-		map_locate(&s, d, &r, &c);
+		struct vec d = envmap_draw(&l, &t, ALL_LANES, bits(), bits(), &row, &column);
+		envmap_locate(&l, d, &r, &c);
 		int turn = abs(column - c);
 		astray += r != row || c != column;
 		far += abs(r - row) > 1 || (r != 0 && r != height - 1 && turn > 1 && turn < width - 1);
 		dark += row == height / 3;
-		double v = m.rgb[3 * (row * width + column) + 1] / map_density(&s, &t, ALL_LANES, row, column);
+		double v = m.rgb[3 * (row * width + column) + 1] / envmap_pdf(&l, &t, ALL_LANES, row, column);
 		sum += v;
 		sum2 += v * v;
 		length = fmax(length, fabs(dot3(d, d) - 1));
@@ -92,40 +92,40 @@ int main(void)
 	map_test(1024, 512);
 
 	/* A texel alone, and one row. */
-	struct scene s = { .map_width = 1, .map_height = 1, .map_angle = (float)(4 * M_PI), .pick = 1 };
-	struct map one = { .width = 1, .height = 1, .rgb = (float[]){ 1, 2, 3 } };
+	struct lights l = { .map_width = 1, .map_height = 1, .map_angle = (float)(4 * M_PI), .pick = 1 };
+	struct scene s;
+	struct envmap one = { .width = 1, .height = 1, .rgb = (float[]){ 1, 2, 3 } };
 	struct tables t = { .map = one.rgb };
 	uint32 *cdf;
-	ok(map_cdf(&one, &cdf) == 4, "a map of one texel");
+	ok(envmap_cdf(&one, &cdf) == 4, "a map of one texel");
 	t.map_cdf = (const int *)cdf;
-	ok(fabs(map_density(&s, &t, ALL_LANES, 0, 0) * 4 * M_PI - 1) < 1e-6, "is drawn evenly");
-	struct map black = { .width = 1, .height = 1, .rgb = (float[]){ 0, 0, 0 } };
+	ok(fabs(envmap_pdf(&l, &t, ALL_LANES, 0, 0) * 4 * M_PI - 1) < 1e-6, "is drawn evenly");
+	struct envmap black = { .width = 1, .height = 1, .rgb = (float[]){ 0, 0, 0 } };
 	free(cdf);
-	ok(map_cdf(&black, &cdf) == 0, "a black one is not drawn");
+	ok(envmap_cdf(&black, &cdf) == 0, "a black one is not drawn");
 	free(cdf);
 
 	/* Rays from within a box of quads, along its edges and walls too, meet one of them from the front. */
 	memset(&s, 0, sizeof s);
 	for (int a = 0; a < 3; a++)
 		for (int side = 0; side < 2; side++) {
-			struct light *q = &s.light[s.n_lights++];
+			struct surface *q = &s.surfaces.surface[s.surfaces.n];
 			int e = (a + 1) % 3, f = (a + 2) % 3;
 			if (side) {
 				int swap = e;
 				e = f;
 				f = swap;
 			}
-			q->kind = LIGHT_QUAD;
 			for (int k = 0; k < 3; k++)
-				q->at[k] = -1;
-			q->at[a] = side ? 1 : -1;
+				q->corner[k] = -1;
+			q->corner[a] = side ? 1 : -1;
 			q->edge[0][e] = q->edge[1][f] = 2;
 			q->dual[0][e] = q->dual[1][f] = 0.5f;
 			q->normal[a] = side ? -1 : 1;
-			q->density = 0.25f;
+			q->light = s.surfaces.n;
+			s.lights.light[s.lights.n++] = (struct light){ .kind = LIGHT_QUAD, .pdf = 0.25f, .surface = s.surfaces.n++ };
 		}
-	s.n_drawn = 6;
-	s.pick = 1 / 6.f;
+	s.lights.pick = 1 / 6.f;
 	int leaks = 0, behind = 0, blocked = 0, bad = 0;
 	for (int i = 0; i < 1000000; i++) {
 		float x[6];
@@ -140,19 +140,19 @@ int main(void)
 		float far = surface_distance(&s, r, &which);
 		leaks += which == NONE;
 		if (which != NONE) {
-			float rgb[3], d = quad_density(&s, &s.light[which], r.along, far);
+			float rgb[3], d = quad_pdf(&s, &s.lights.light[which], r.along, far);
 			behind += !(d > 0.f);
-			quad_seen(&s, which, r, far, 0.1f, rgb);
+			surface_radiance(&s, which, r, far, 0.1f, rgb);
 			bad += !(rgb[0] == 0.f);
 		}
-		struct drawn d;
+		struct light_sample d;
 		struct random random = { .key = bits(), .shift = bits() };
 		light_draw(&s, &t, ALL_LANES, i % 6, r.from, &random, &d);
 		if (any(d.shines)) {
 			r.along = d.along;
 			far = surface_distance(&s, r, &which);
 			blocked += any(light_blocked(&d, which, far));
-			bad += !(d.density > 0.f && d.t_end > 0.f && d.t_end < 4.f);
+			bad += !(d.pdf > 0.f && d.t_end > 0.f && d.t_end < 4.f);
 		}
 	}
 	/* an edge is two floats wide: of 1e6 rays 0.2 are expected on one */
@@ -169,8 +169,8 @@ int main(void)
 	for (int i = 0; i < 6; i++)
 		y[i] = (float)i;
 	exr_write((struct out[]){ out_open(path, 1) }, &grey);
-	struct map m;
-	map_read(path, (double[]){ 1, 0.5, 2 }, &m);
+	struct envmap m;
+	envmap_read(path, (double[]){ 1, 0.5, 2 }, &m);
 	ok(m.width == 3 && m.height == 2 && m.rgb[15] == 5 && m.rgb[16] == 2.5f && m.rgb[17] == 10, "a map of Y alone, scaled by a colour");
 	unlink(path);
 	rmdir(folder);

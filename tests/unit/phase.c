@@ -66,16 +66,16 @@ int main(void)
 		theta_f[i] = (float)theta[i];
 		p_f[i] = (float)p[i];
 	}
-	struct angles angles;
-	angles_make(&angles, 1, 1, range, theta_f, p_f, cdf);
-	struct scene scene = { .n_waves = 1, .carried = 1, .n_groups = 1, .n_classes = 0, .only_class = 0 };
-	struct tables t = { .phase = angles.phase, .interval = angles.interval, .alias = angles.alias, .angle = angles.angle };
-	struct waves w = { 1, 0 };
+	struct phase_sampler sampler;
+	phase_sampler_make(&sampler, 1, 1, range, theta_f, p_f, cdf);
+	struct scene scene = { .n_waves = 1, .carried = 1, .n_groups = 1 };
+	struct tables t = { .phase = sampler.phase, .interval = sampler.interval, .alias = sampler.alias, .angle = sampler.angle };
+	struct waves w = { 1, 0, 0 };
 	double cosine = 0, cosine2 = 0, place = 0, place2 = 0, worst = 0, worst_value = 0;
 	struct random r = random_of(1, 2, 3);
 	for (int k = 0; k < draws; k++) {
 		float sn, cs, value[CARRIED], again[CARRIED];
-		phase_draw(&scene, &t, ALL_LANES, 0, 0, w, 0, draw_bits(&r, 0), draw_bits(&r, 1), &sn, &cs, value);
+		phase_draw(&scene, &t, ALL_LANES, 0, 0, w, draw_bits(&r, 0), draw_bits(&r, 1), &sn, &cs, value);
 		double angle = atan2(sn, cs), length = (double)sn * sn + (double)cs * cs;
 		int i = 0;
 		for (int step = NODES / 2 + 1; step; step /= 2)
@@ -88,7 +88,7 @@ int main(void)
 		place += f;
 		place2 += f * f;
 		worst = fmax(worst, fabs(length - 1));
-		phase_value(&scene, &t, ALL_LANES, 0, (float)angle, w, again);
+		phase_value(&scene, &t, ALL_LANES, 0, 0, (float)angle, w, again);
 		worst_value = fmax(worst_value, fabs(value[0] - again[0]) / (fabs(again[0]) + p_error(theta_f, p_f, i)));
 		next_vertex(&r, ALL_LANES);
 	}
@@ -97,7 +97,7 @@ int main(void)
 	double worst_index = 0;
 	for (int k = 0; k <= 4000000; k++) {
 		float at = fminf((float)(k * (M_PI / 4000000)), theta_f[NODES - 1]), value[CARRIED];
-		phase_value(&scene, &t, ALL_LANES, 0, at, w, value);
+		phase_value(&scene, &t, ALL_LANES, 0, 0, at, w, value);
 		int i = 0;
 		for (int step = NODES / 2 + 1; step; step /= 2)
 			while (i + step < NODES - 1 && theta_f[i + step] <= at)
@@ -128,6 +128,6 @@ int main(void)
 	ok(fabs(z_place) < 4.5, "places within the intervals: z %.2f", z_place);
 	ok(worst < 1e-6, "sine and cosine are of one angle: %.2g", worst);
 	ok(worst_value < 1, "p is that at the angle drawn: within %.2g of what rounding may do", worst_value);
-	angles_free(&angles);
+	phase_sampler_free(&sampler);
 	return done_testing();
 }

@@ -3,7 +3,7 @@
 #ifndef KERN_FILM_H
 #define KERN_FILM_H
 
-#include "render/kern/path.h"
+#include "render/kern/path_state.h"
 
 #define FILM_UNIT 1073741824.0     /* 2^30 */
 
@@ -57,13 +57,13 @@ FN uint64 film_add_square(GLOBAL int64 *sum, int64 v)
 /* Lanes of m whose value is too large, or no number: these become FILM_MOST. */
 FN mv film_clamp(mv m, fv *value)
 {
-	mv good = lt(size_of(*value), FV(FILM_MOST));
+	mv good = lt(fv_abs(*value), FV(FILM_MOST));
 	*value = SEL(good, *value, FV(FILM_MOST));
 	return m & NOT(good);
 }
 
-/* What the paths of lanes m add to each of the sums, but the square, and but for what job_finish makes of them: SUM_ALL gets what
- * was seen unscattered. Returns the lanes that have what no sum can take. */
+/* What the paths of lanes m add to each of the sums, but the square, and but for what lib/render/film.c makes of them: SUM_ALL gets
+ * what was seen unscattered. Returns the lanes that have what no sum can take. */
 FN mv film_values(const struct scene *s, struct path *p, mv m, fv *value)
 {
 	mv scattered = ilt(IV(0), p->order), often = ilt(IV(1), p->order), bad = NO_LANE;
@@ -73,7 +73,7 @@ FN mv film_values(const struct scene *s, struct path *p, mv m, fv *value)
 		fv last = p->rgb[c], none = p->before[0][c], once = p->before[1][c];
 		fv single = SEL(often, once, SEL(scattered, last, zero)), more = SEL(often, last, zero);
 		none = SEL(scattered, none, last);
-		if (PEAK || BRANCHES) {
+		if (HAS_PEAK(&s->volume) || BRANCHES) {
 			single += p->aside[0][c];
 			more += p->aside[1][c];
 		}

@@ -49,7 +49,7 @@ FN iv signed_of(uv x) { return PASTE(as_int, WIDE)(x); }
 FN uv unsigned_of(iv x) { return PASTE(as_uint, WIDE)(x); }
 FN fv to_float(iv x) { return PASTE(convert_float, WIDE)(x); }
 FN iv to_int(fv x) { return PASTE(PASTE(convert_int, WIDE), _rtz)(x); }
-FN fv root(fv x) { return sqrt(x); }
+FN fv fv_sqrt(fv x) { return sqrt(x); }
 FN mv lt(fv a, fv b) { return TRUTH(a < b); }
 FN mv le(fv a, fv b) { return TRUTH(a <= b); }
 FN mv ilt(iv a, iv b) { return TRUTH(a < b); }
@@ -220,7 +220,7 @@ FN mv lt(fv a, fv b) { return -(a < b); }
 FN mv le(fv a, fv b) { return -(a <= b); }
 FN mv ilt(iv a, iv b) { return -(a < b); }
 FN mv ieq(iv a, iv b) { return -(a == b); }
-FN fv root(fv x) { return __builtin_sqrtf(x); }
+FN fv fv_sqrt(fv x) { return __builtin_sqrtf(x); }
 FN uint32 bits_of(mv m) { return m & 1; }
 FN fv gather(mv m, const float *p, iv i) { return m ? p[i] : 0.f; }
 FN iv igather(mv m, const int *p, iv i) { return m ? p[i] : 0; }
@@ -247,7 +247,7 @@ FN mv lt(fv a, fv b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_O
 FN mv le(fv a, fv b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LE_OQ); }
 FN mv ilt(iv a, iv b) { return _mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b); }
 FN mv ieq(iv a, iv b) { return _mm512_cmpeq_epi32_mask((__m512i)a, (__m512i)b); }
-FN fv root(fv x) { return (fv)_mm512_sqrt_ps((__m512)x); }
+FN fv fv_sqrt(fv x) { return (fv)_mm512_sqrt_ps((__m512)x); }
 FN uint32 bits_of(mv m) { return m; }
 FN fv gather(mv m, const float *p, iv i) { return (fv)_mm512_mask_i32gather_ps(_mm512_setzero_ps(), m, (__m512i)i, p, 4); }
 FN iv igather(mv m, const int *p, iv i) { return (iv)_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), m, (__m512i)i, p, 4); }
@@ -262,13 +262,13 @@ FN mv ilt(iv a, iv b) { return a < b; }
 FN mv ieq(iv a, iv b) { return a == b; }
 #if LANES == 8             /* AVX2 */
 #define SEL(m, a, b) ((__typeof__(a))_mm256_blendv_epi8((__m256i)(b), (__m256i)(a), (__m256i)(m)))
-FN fv root(fv x) { return (fv)_mm256_sqrt_ps((__m256)x); }
+FN fv fv_sqrt(fv x) { return (fv)_mm256_sqrt_ps((__m256)x); }
 FN uint32 bits_of(mv m) { return (uint32)_mm256_movemask_ps((__m256)m); }
 FN fv gather(mv m, const float *p, iv i) { return (fv)_mm256_mask_i32gather_ps(_mm256_setzero_ps(), p, (__m256i)i, (__m256)m, 4); }
 FN iv igather(mv m, const int *p, iv i) { return (iv)_mm256_mask_i32gather_epi32(_mm256_setzero_si256(), p, (__m256i)i, (__m256i)m, 4); }
 #else                      /* SSE4.1, 4 lanes */
 #define SEL(m, a, b) ((__typeof__(a))_mm_blendv_epi8((__m128i)(b), (__m128i)(a), (__m128i)(m)))
-FN fv root(fv x) { return (fv)_mm_sqrt_ps((__m128)x); }
+FN fv fv_sqrt(fv x) { return (fv)_mm_sqrt_ps((__m128)x); }
 FN uint32 bits_of(mv m) { return (uint32)_mm_movemask_ps((__m128)m); }
 FN fv gather(mv m, const float *p, iv i)
 {
@@ -372,9 +372,9 @@ FN void igather2(mv m, const int *p, iv i, iv *out)
 /* ------------------------------------------------------------------ for both */
 /* The lanes of m one by one; bits_of has a bit for each. */
 #define EACH_LANE_OF(m, i) for (uint32 bits = bits_of(m), i = lowest(bits); bits; bits &= bits - 1, i = lowest(bits))
-FN fv least(fv a, fv b) { return SEL(lt(a, b), a, b); }
-FN fv most(fv a, fv b) { return SEL(lt(b, a), a, b); }
-FN iv ileast(iv a, iv b) { return SEL(ilt(a, b), a, b); }
+FN fv fv_min(fv a, fv b) { return SEL(lt(a, b), a, b); }
+FN fv fv_max(fv a, fv b) { return SEL(lt(b, a), a, b); }
+FN iv iv_min(iv a, iv b) { return SEL(ilt(a, b), a, b); }
 
 /* Change the lanes m of a variable. */
 #define SET(m, place, value) ((place) = SEL(m, value, place))

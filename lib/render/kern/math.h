@@ -7,10 +7,10 @@
 #define PI 3.14159265f
 
 /* x without its fraction, and without its sign. */
-FN fv whole(fv x) { return to_float(to_int(x)); }
-FN fv size_of(fv x) { return bits_float(float_bits(x) & 0x7fffffffu); }
+FN fv fv_trunc(fv x) { return to_float(to_int(x)); }
+FN fv fv_abs(fv x) { return bits_float(float_bits(x) & 0x7fffffffu); }
 
-/* log(1 + m) for 1 + m in [root(1/2), sqrt 2); relative error below 2e-7. */
+/* log(1 + m) for 1 + m in [sqrt(1/2), sqrt 2); relative error below 2e-7. */
 FN fv log_near(fv m)
 {
 	fv p = m * -0.0784109103f + 0.129894573f;
@@ -59,7 +59,7 @@ FN fv expneg(fv x)
 }
 
 /* sin and cos of x in [0, 2 pi]; absolute error below 2e-7, that of sin relative near 0. */
-FN void sincos_of(fv x, fv *s, fv *c)
+FN void fv_sincos(fv x, fv *s, fv *c)
 {
 	iv q = to_int(x * 0.636619772f + 0.5f);
 	fv turns = to_float(q), t = (x - turns * 1.57079637f) + turns * 4.37113883e-8f;    /* pi/2 in two parts */
@@ -72,7 +72,7 @@ FN void sincos_of(fv x, fv *s, fv *c)
 }
 
 /* atan(y / x) for 0 <= y <= x, x > 0; relative error below 5e-7. */
-FN fv atan_of(fv y, fv x)
+FN fv fv_atan_octant(fv y, fv x)
 {
 	mv steep = lt(x * 0.414213562f, y);
 	fv z = SEL(steep, y - x, y) / SEL(steep, y + x, x), q = z * z;
@@ -85,9 +85,9 @@ FN fv atan_of(fv y, fv x)
 FN fv invert_density(const fv *q, fv v, int steps)
 {
 	fv g1 = 0.5f * q[1], g2 = 0.333333333f * q[2], g3 = 0.25f * q[3], g4 = 0.2f * q[4];
-	fv end = q[0] + q[1] + q[2] + q[3] + q[4], spread = q[0] + root(most(FV(0.f), q[0] * q[0] + v * (end * end - q[0] * q[0])));
+	fv end = q[0] + q[1] + q[2] + q[3] + q[4], spread = q[0] + fv_sqrt(fv_max(FV(0.f), q[0] * q[0] + v * (end * end - q[0] * q[0])));
 	fv target = v * (q[0] + g1 + g2 + g3 + g4), lo = FV(0.f), hi = FV(1.f);
-	fv f = SEL(lt(FV(0.f), spread), least(FV(1.f), v * (q[0] + end) / spread), v);
+	fv f = SEL(lt(FV(0.f), spread), fv_min(FV(1.f), v * (q[0] + end) / spread), v);
 	for (int i = 0; i < steps; i++) {
 		fv excess = f * (q[0] + f * (g1 + f * (g2 + f * (g3 + f * g4)))) - target;
 		fv slope = q[0] + f * (q[1] + f * (q[2] + f * (q[3] + f * q[4])));
@@ -101,11 +101,11 @@ FN fv invert_density(const fv *q, fv v, int steps)
 }
 
 /* The angle of the point (x, y) from the x axis towards y, in [-pi, pi], 0 at the origin; absolute error below 8e-7. */
-FN fv turn_of(fv y, fv x)
+FN fv fv_atan2(fv y, fv x)
 {
-	fv a = size_of(x), b = size_of(y);
+	fv a = fv_abs(x), b = fv_abs(y);
 	mv flat = lt(b, a), up = lt(FV(0.f), b);
-	fv t = atan_of(SEL(flat, b, a), SEL(flat, a, SEL(up, b, FV(1.f))));
+	fv t = fv_atan_octant(SEL(flat, b, a), SEL(flat, a, SEL(up, b, FV(1.f))));
 	t = SEL(flat, t, SEL(up, 0.5f * PI - t, FV(0.f)));
 	t = SEL(lt(x, FV(0.f)), PI - t, t);
 	return SEL(lt(y, FV(0.f)), -t, t);
@@ -121,7 +121,7 @@ FN struct vec add(struct vec a, struct vec b) { return vec3(a.x + b.x, a.y + b.y
 FN struct vec sub(struct vec a, struct vec b) { return vec3(a.x - b.x, a.y - b.y, a.z - b.z); }
 FN struct vec scale(struct vec a, fv k) { return vec3(a.x * k, a.y * k, a.z * k); }
 FN fv dot3(struct vec a, struct vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-FN struct vec unit3(struct vec a) { return scale(a, 1.f / root(dot3(a, a))); }
+FN struct vec unit3(struct vec a) { return scale(a, 1.f / fv_sqrt(dot3(a, a))); }
 FN struct vec sel3(mv m, struct vec a, struct vec b) { return vec3(SEL(m, a.x, b.x), SEL(m, a.y, b.y), SEL(m, a.z, b.z)); }
 FN void set3(mv m, struct vec *v, struct vec value) { *v = sel3(m, value, *v); }
 
@@ -130,28 +130,28 @@ FN void set3(mv m, struct vec *v, struct vec value) { *v = sel3(m, value, *v); }
 FN fv angle_between(struct vec a, struct vec b)
 {
 	struct vec u = sub(a, b), v = add(a, b);
-	fv near = dot3(u, u), far = dot3(v, v), q = 0.25f * least(near, far);
+	fv near = dot3(u, u), far = dot3(v, v), q = 0.25f * fv_min(near, far);
 	fv p = q * 0.11357414f - 0.09684852f;
 	p = p * q + 0.080140255f;
 	p = p * q + 0.015181846f;
 	p = p * q + 0.04674823f;
 	p = p * q + 0.07485923f;
 	p = p * q + 0.16667022f;
-	fv t = root(q), angle = 2.f * (t + t * q * p);
+	fv t = fv_sqrt(q), angle = 2.f * (t + t * q * p);
 	return SEL(le(near, far), angle, PI - angle);
 }
 
 /* The unit vector at polar angle theta (by its sine and cosine) and azimuth phi about w.
  * Frame of Duff et al. 2017, "Building an orthonormal basis, revisited". */
-FN struct vec around(struct vec w, fv sin_theta, fv cos_theta, fv phi)
+FN struct vec to_world(struct vec w, fv sin_theta, fv cos_theta, fv phi)
 {
 	fv s, c, sign = SEL(lt(w.z, FV(0.f)), FV(-1.f), FV(1.f)), a = -1.f / (sign + w.z), b = w.x * w.y * a;
-	sincos_of(phi, &s, &c);
+	fv_sincos(phi, &s, &c);
 	s *= sin_theta;
 	c *= sin_theta;
 	struct vec v = vec3((1.f + sign * w.x * w.x * a) * c + b * s + w.x * cos_theta,
 	                    sign * b * c + (sign + w.y * w.y * a) * s + w.y * cos_theta, w.z * cos_theta - sign * w.x * c - w.y * s);
-	return scale(v, 1.5f - 0.5f * dot3(v, v));    /* of unit length but for rounding: 1 / root to first order */
+	return scale(v, 1.5f - 0.5f * dot3(v, v));    /* of unit length but for rounding: 1 / sqrt to first order */
 }
 
 #endif

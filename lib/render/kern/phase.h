@@ -8,7 +8,8 @@
 #define KERN_PHASE_H
 
 #include "render/kern/random.h"
-#include "render/kern/ray.h"
+#include "render/kern/math.h"
+#include "render/kern/waves.h"
 
 /* The row of a class: its first interval, first column, 32 - log2 of the number of columns, and first step. */
 enum { PHASE_INTERVAL, PHASE_COLUMN, PHASE_SHIFT, PHASE_STEP, PHASE_ROW };
@@ -52,13 +53,13 @@ FN void interval_load(const struct scene *s, const struct tables *t, mv m, iv i,
 }
 
 /* value[j] in sr^-1 at an angle in [0, pi]. */
-FN void phase_value(const struct scene *s, const struct tables *t, mv m, iv class, fv theta, struct waves w, fv *value)
+FN void phase_value(const struct scene *s, const struct tables *t, mv m, int only, iv class, fv theta, struct waves w, fv *value)
 {
 	fv place = theta * ((float)ANGLE_STEPS / PI);
-	iv step = ileast(to_int(place), IV(ANGLE_STEPS - 1)), row = phase_row(t, m, s->only_class, class, PHASE_STEP) + 2 * step;
+	iv step = iv_min(to_int(place), IV(ANGLE_STEPS - 1)), row = phase_row(t, m, only, class, PHASE_STEP) + 2 * step;
 	iv parts[2], at[2];        /* the first part and their number; the interval where a part begins, and where the next one does */
 	igather2(m, t->angle, row, parts);
-	iv part = ileast(to_int((place - to_float(step)) * to_float(parts[1])), parts[1] - 1);
+	iv part = iv_min(to_int((place - to_float(step)) * to_float(parts[1])), parts[1] - 1);
 	igather2(m, t->angle, parts[0] + 2 * part, at);
 	at[0] += SEL(le(bits_float(unsigned_of(at[1])), theta), IV(1), IV(0));
 	struct interval i;
@@ -69,7 +70,7 @@ FN void phase_value(const struct scene *s, const struct tables *t, mv m, iv clas
 #else
 	interval_load(s, t, m, at[0], w, &i);
 #endif
-	fv along = least(i.width, most(FV(0.f), theta - i.theta));
+	fv along = fv_min(i.width, fv_max(FV(0.f), theta - i.theta));
 	EACH_WAVE(j)
 		value[j] = i.p[j] + i.slope[j] * along;
 }
@@ -78,18 +79,18 @@ FN void phase_value(const struct scene *s, const struct tables *t, mv m, iv clas
  * probability, the place in it by inverting the integral of (linear p) x sin, sin being a cubic over an interval (at most 1 degree:
  * relative error 4e-9), with one step of Newton, which is enough for intervals as phase_sampler.c makes them: within 1e-5 of their width.
  * value[j]: p there in sr^-1. Returns the interval. */
-FN iv phase_draw(const struct scene *s, const struct tables *t, mv m, int only, iv class, struct waves w, iv hero, uv u, uv v, fv *sine, fv *cosine,
-                 fv *value)
+FN iv phase_draw(const struct scene *s, const struct tables *t, mv m, int only, iv class, struct waves w, uv u, uv v, fv *sine,
+                 fv *cosine, fv *value)
 {
 	iv shift = phase_row(t, m, only, class, PHASE_SHIFT);
 	uv column = SEL(m, u >> unsigned_of(shift), UV(0)), rest = u - (column << unsigned_of(shift));
-	iv entry = 2 * ((phase_row(t, m, only, class, PHASE_COLUMN) + signed_of(column)) * s->n_waves + hero_of(s, w, hero));
+	iv entry = 2 * ((phase_row(t, m, only, class, PHASE_COLUMN) + signed_of(column)) * s->n_waves + hero_of(s, w));
 	iv alias[2];
 	igather2(m, t->alias, entry, alias);
 	iv at = phase_row(t, m, only, class, PHASE_INTERVAL) + SEL(ilt(signed_of(rest), alias[0]), signed_of(column), alias[1]);
 	struct interval i;
 	interval_load(s, t, m, at, w, &i);
-	fv sn = i.sine, cs = i.cosine, h = i.width, p = hero_among(s, i.p, hero), d = hero_among(s, i.slope, hero) * h;
+	fv sn = i.sine, cs = i.cosine, h = i.width, p = hero_among(s, i.p, w), d = hero_among(s, i.slope, w) * h;
 	/* density (p + d f) (sn + c1 f + c2 f^2 + c3 f^3) = q[0] + q[1] f + .. + q[4] f^4 */
 	fv c1 = cs * h, c2 = -0.5f * sn * h * h, c3 = -0.166666667f * cs * h * h * h;
 	const fv q[5] = { p * sn, p * c1 + d * sn, p * c2 + d * c1, p * c3 + d * c2, d * c3 };

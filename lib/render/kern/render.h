@@ -3,8 +3,9 @@
 #define KERN_RENDER_H
 
 #include "render/kern/film.h"
+#include "render/kern/path.h"
 
-/* How many lanes wait at a vertex until the rest has marched on, and how many paths that are over until new ones begin: enough to be
+/* How many lanes wait at a vertex until the rest has gone on, and how many paths that are over until new ones begin: enough to be
  * worth their while, but not so many that few do something meanwhile. */
 #define VERTEX_WAIT ((LANES + 1) / 2)
 #define BEGIN_WAIT ((LANES + 3) / 4)
@@ -30,8 +31,8 @@ FN mv work_take(const struct scene *s, struct work *w, mv m)
 			if (++w->sample == w->last_sample) {
 				w->sample = w->first_sample;
 				w->pixel++;
-				w->row += ++w->column == (uint32)s->width;
-				w->column = w->column == (uint32)s->width ? 0 : w->column;
+				w->row += ++w->column == (uint32)s->camera.width;
+				w->column = w->column == (uint32)s->camera.width ? 0 : w->column;
 			}
 		}
 	}
@@ -42,7 +43,8 @@ FN mv work_take(const struct scene *s, struct work *w, mv m)
 FN void render_pixels(const struct scene *s, const struct tables *t, GLOBAL int64 *film, GLOBAL int *overflow, uint32 first_pixel,
                       uint32 last_pixel, uint32 first, uint32 last)
 {
-	uint32 width = (uint32)s->width;
+	uint32 width = (uint32)s->camera.width;
+	const struct volume *v = &s->volume;
 	struct work work = { first_pixel, first_pixel % width, first_pixel / width, first, last_pixel, first, last,
 		IV(0), IV(0), IV(0), IV(0) };
 	struct path p = { 0 };
@@ -54,21 +56,19 @@ FN void render_pixels(const struct scene *s, const struct tables *t, GLOBAL int6
 		if (any(fresh))
 			path_begin(s, &p, fresh, work.at_pixel, work.at_column, work.at_row, work.at_sample);
 		live |= fresh;
-		path_fly(s, t, &p, fresh | leaving);
+		path_fly(s, v, t, &p, fresh | leaving);
 		int paths = count(live), under_way;
-		while ((under_way = count(marching(s, &p.march))) > 0 && paths - under_way < VERTEX_WAIT)
-			march_on(s, t, &p.march, p.waves, p.hero, &p.random_there);
-		mv here = live & NOT(marching(s, &p.march)), by_detour = PEAK ? here & p.detour : NO_LANE;
-		mv ended = path_arrive(s, t, &p, here & p.flying);
-		if (any(by_detour))
-			detour_arrive(s, t, &p, by_detour);
-		leaving = live & NOT(p.flying | marching(s, &p.march) | ended | (PEAK ? p.detour : NO_LANE));
-		ended |= path_depart(s, t, &p, leaving);
+		while ((under_way = count(volume_going(v, &p.walk))) > 0 && paths - under_way < VERTEX_WAIT)
+			volume_step(s, v, t, &p.walk, p.waves, &p.walk_random);
+		mv here = live & NOT(volume_going(v, &p.walk)), chained = HAS_PEAK(v) ? here & p.chain.flying : NO_LANE;
+		mv ended = path_arrive(s, v, t, &p, here & p.flying);
+		if (any(chained))
+			chain_arrive(s, v, t, &p, chained);
+		leaving = live & NOT(p.flying | volume_going(v, &p.walk) | ended | (HAS_PEAK(v) ? p.chain.flying : NO_LANE));
+		ended |= path_depart(s, v, t, &p, leaving);
 		leaving &= NOT(ended);
-		if (BRANCHES) {
-			p.again = ended & ilt(IV(0), p.branches);
-			ended &= NOT(p.again);
-		}
+		if (BRANCHES)
+			ended = split_over(&p, ended);
 		live &= NOT(ended);
 		over |= ended;
 		fresh = NO_LANE;

@@ -9,8 +9,7 @@
 #ifndef KERN_VOXELS_H
 #define KERN_VOXELS_H
 
-#include "render/kern/random.h"
-#include "render/kern/ray.h"
+#include "render/kern/traversal.h"
 
 #define BRICK 4
 #define BRICK_CELLS (BRICK * BRICK * BRICK)
@@ -22,59 +21,66 @@
  * noisy, and a thick medium is not crossed in vain. */
 #define SHADOW_DEPTH 4.f
 
-struct passage {
-	mv going, reached;         /* still under way; came to the target */
-	mv flight;                 /* the target is in the hero's optical depth, else in the least of all */
+struct voxel_dda {
+	mv reached;                /* came to the target: of a flight in the hero's optical depth, else in the least of all */
 	fv depth[CARRIED];         /* passed: in cubes the optical depth of each wavelength, in a density its integral, in depth[0] */
 	fv target;
-	struct vec entry, along;
-	fv t0;                     /* entry, along the ray */
 	fv t, t1;                  /* from entry: of the cell that it is in, where it enters; where it leaves the medium */
 	fv span;                   /* of the cell that has the target */
 	/* in cells, from the low end: entry, direction and its inverse, 1 where it goes up; the cell */
 	fv at[3], d[3], inverse[3], up[3], cell[3];
 };
 
-FN void passage_begin(const struct scene *s, struct passage *g, mv m, struct ray r, fv t_end, mv flight, fv target)
+FN void voxels_begin(const struct scene *s, const struct volume *v, const struct tables *t, struct traversal *g, struct voxel_dda *q, mv m,
+                     struct ray r, fv t_end, mv flight, struct waves w, const struct random *random)
 {
+	fv target = free_path(SEL(flight, draw_bits(random, DRAW_FLIGHT), draw_bits(random, DRAW_SHADOW)));
+	target += SEL(flight, FV(0.f), FV(SHADOW_DEPTH));
+	if (!IS_COUNTED(v)) {      /* in units of the integral of the density */
+		fv own = of_hero(s, t->extinction, m, w), thinnest = own;
+		EACH_WAVE(j)
+			thinnest = fv_min(thinnest, of_wave(s, t->extinction, 0, m, w, j));
+		own = SEL(flight, own, thinnest);
+		target = SEL(lt(FV(0.f), own), target / own, FV(FAR));
+	}
 	fv t0, t1;
-	clip_medium(s, r, &t0, &t1);
-	t1 = least(t1, t_end) - t0;
+	clip_volume(v, r, &t0, &t1);
+	t1 = fv_min(t1, t_end) - t0;
 	struct vec entry = add(r.from, scale(r.along, t0));
 	const fv at[3] = { entry.x, entry.y, entry.z }, d[3] = { r.along.x, r.along.y, r.along.z };
 	const fv inverse[3] = { r.inverse.x, r.inverse.y, r.inverse.z };
 	set3(m, &g->entry, entry);
 	set3(m, &g->along, r.along);
 	EACH(a, 3) {
-		fv place = (at[a] - s->voxel_low[a]) * s->voxels_per_m[a];
-		SET(m, g->at[a], place);
-		SET(m, g->d[a], d[a] * s->voxels_per_m[a]);
-		SET(m, g->inverse[a], inverse[a] * s->voxel[a]);
-		SET(m, g->up[a], SEL(lt(FV(0.f), inverse[a]), FV(1.f), FV(0.f)));
-		SET(m, g->cell[a], whole(least(most(place, FV((float)BRICK)), FV((float)(BRICK + s->voxels[a] - 1)))));
+		fv place = (at[a] - v->voxel_low[a]) * v->voxels_per_m[a];
+		SET(m, q->at[a], place);
+		SET(m, q->d[a], d[a] * v->voxels_per_m[a]);
+		SET(m, q->inverse[a], inverse[a] * v->voxel[a]);
+		SET(m, q->up[a], SEL(lt(FV(0.f), inverse[a]), FV(1.f), FV(0.f)));
+		SET(m, q->cell[a], fv_trunc(fv_min(fv_max(place, FV((float)BRICK)), FV((float)(BRICK + v->voxels[a] - 1)))));
 	}
 	SET(m, g->t0, t0);
-	SET(m, g->t, FV(0.f));
-	SET(m, g->span, FV(0.f));
-	SET(m, g->t1, t1);
-	SET(m, g->target, target);
+	SET(m, q->t, FV(0.f));
+	SET(m, q->span, FV(0.f));
+	SET(m, q->t1, t1);
+	SET(m, q->target, target);
 	EACH_WAVE(j)
-		SET(m, g->depth[j], FV(0.f));
+		SET(m, q->depth[j], FV(0.f));
 	SET_TRUTH(m, g->flight, flight);
-	SET_TRUTH(m, g->reached, NO_LANE);
+	SET_TRUTH(m, q->reached, NO_LANE);
 	SET_TRUTH(m, g->going, lt(FV(0.f), t1));
 }
 
 /* The cell as integers. */
-FN void indices(const struct passage *g, iv *i)
+FN void indices(const struct voxel_dda *q, iv *i)
 {
 	EACH(a, 3)
-		i[a] = to_int(g->cell[a]);
+		i[a] = to_int(q->cell[a]);
 }
 
-FN iv brick_of(const struct scene *s, const struct tables *t, mv m, const iv *i)
+FN iv brick_of(const struct volume *v, const struct tables *t, mv m, const iv *i)
 {
-	return igather(m, t->brick, ((i[2] >> 2) * s->bricks[1] + (i[1] >> 2)) * s->bricks[0] + (i[0] >> 2));
+	return igather(m, t->brick, ((i[2] >> 2) * v->bricks[1] + (i[1] >> 2)) * v->bricks[0] + (i[0] >> 2));
 }
 
 /* The eight corners of a cell, [z][x][y]. */
@@ -87,61 +93,63 @@ FN void corners(const struct tables *t, mv m, iv brick, const iv *i, fv *p)
 }
 
 /* Density at t, in the cell of these corners. */
-FN fv density_along(const struct passage *g, const fv *p, fv t)
+FN fv density_along(const struct voxel_dda *q, const fv *p, fv t)
 {
-	fv x = g->at[0] + g->d[0] * t - g->cell[0], y = g->at[1] + g->d[1] * t - g->cell[1], z = g->at[2] + g->d[2] * t - g->cell[2];
+	fv x = q->at[0] + q->d[0] * t - q->cell[0], y = q->at[1] + q->d[1] * t - q->cell[1], z = q->at[2] + q->d[2] * t - q->cell[2];
 	fv a = p[0] + (p[2] - p[0]) * x, b = p[1] + (p[3] - p[1]) * x, c = p[4] + (p[6] - p[4]) * x, d = p[5] + (p[7] - p[5]) * x;
 	fv e = a + (b - a) * y, f = c + (d - c) * y;
 	return e + (f - e) * z;
 }
 
 /* One cell, or empty bricks at once, of all lanes under way (3D-DDA). */
-FN void passage_on(const struct scene *s, const struct tables *t, struct passage *g, struct waves w, iv hero)
+FN void voxels_step(const struct scene *s, const struct volume *v, const struct tables *t, struct traversal *g, struct voxel_dda *q,
+                    struct waves w, const struct random *random)
 {
+	(void)random;
 	mv m = g->going;
 	iv i[3];
-	indices(g, i);
-	iv brick = brick_of(s, t, m, i);
+	indices(q, i);
+	iv brick = brick_of(v, t, m, i);
 	mv empty = m & ilt(brick, IV(0)), full = m & NOT(empty);
 	/* what is passed now: cells from low on, one or many along each axis */
-	fv low[3] = { g->cell[0], g->cell[1], g->cell[2] }, many = FV(1.f), wall[3], leave[3];
+	fv low[3] = { q->cell[0], q->cell[1], q->cell[2] }, many = FV(1.f), wall[3], leave[3];
 	if (any(empty)) {
 		many = SEL(empty, to_float((-2 * BRICK) * brick - BRICK), many);
 		EACH(a, 3)
 			low[a] = SEL(empty, to_float((i[a] & ~(BRICK - 1)) + (brick + 1) * BRICK), low[a]);
 	}
 	EACH(a, 3) {
-		wall[a] = low[a] + g->up[a] * many;
-		leave[a] = (wall[a] - g->at[a]) * g->inverse[a];
+		wall[a] = low[a] + q->up[a] * many;
+		leave[a] = (wall[a] - q->at[a]) * q->inverse[a];
 	}
-	fv out = least(leave[0], least(leave[1], leave[2])), span = most(FV(0.f), least(out, g->t1) - g->t);
-	if (COUNTED) {
+	fv out = fv_min(leave[0], fv_min(leave[1], leave[2])), span = fv_max(FV(0.f), fv_min(out, q->t1) - q->t);
+	if (IS_COUNTED(v)) {
 		fv here[CARRIED], own = FV(FAR), own_here = FV(FAR);
 		iv at = (brick * BRICK_CELLS + ((i[2] & 3) * BRICK + (i[1] & 3)) * BRICK + (i[0] & 3)) * s->n_waves;
 		EACH_WAVE(j) {
 			here[j] = gather(full, t->voxel, at + wave_of(s, w, j));
-			mv mine = (g->flight & ieq(hero, IV(j))) | (NOT(g->flight) & lt(g->depth[j] + here[j] * span, own + own_here));
-			own = SEL(mine, g->depth[j], own);
+			mv mine = (g->flight & ieq(w.hero, IV(j))) | (NOT(g->flight) & lt(q->depth[j] + here[j] * span, own + own_here));
+			own = SEL(mine, q->depth[j], own);
 			own_here = SEL(mine, here[j] * span, own_here);
 		}
-		mv hit = full & le(g->target, own + own_here) & lt(FV(0.f), own_here);
+		mv hit = full & le(q->target, own + own_here) & lt(FV(0.f), own_here);
 		if (any(hit))
-			span = SEL(hit, least(span, (g->target - own) * span / own_here), span);
+			span = SEL(hit, fv_min(span, (q->target - own) * span / own_here), span);
 		EACH_WAVE(j)
-			SET(full, g->depth[j], g->depth[j] + here[j] * span);
-		SET(hit, g->t, g->t + span);
-		g->reached |= hit;
+			SET(full, q->depth[j], q->depth[j] + here[j] * span);
+		SET(hit, q->t, q->t + span);
+		q->reached |= hit;
 		g->going &= NOT(hit);
 	} else {
 		fv p[8];
 		corners(t, full, brick, i, p);
 		/* the cubic, by Gauss's two nodes exactly */
-		fv v = density_along(g, p, g->t + span * 0.211324865f) + density_along(g, p, g->t + span * 0.788675135f);
-		fv sum = g->depth[0] + span * (0.5f * v);
-		mv hit = full & le(g->target, sum);
-		SET(hit, g->span, span);
-		SET(full & NOT(hit), g->depth[0], sum);
-		g->reached |= hit;
+		fv two = density_along(q, p, q->t + span * 0.211324865f) + density_along(q, p, q->t + span * 0.788675135f);
+		fv sum = q->depth[0] + span * (0.5f * two);
+		mv hit = full & le(q->target, sum);
+		SET(hit, q->span, span);
+		SET(full & NOT(hit), q->depth[0], sum);
+		q->reached |= hit;
 		g->going &= NOT(hit);
 	}
 	/* into the next cell */
@@ -149,32 +157,80 @@ FN void passage_on(const struct scene *s, const struct tables *t, struct passage
 	EACH(a, 3) {
 		mv across = le(leave[a], out);
 		if (any(empty))        /* along the other axes the ray has moved on, too */
-			SET(m & empty, g->cell[a], most(low[a], least(low[a] + (many - 1.f), whole(g->at[a] + g->d[a] * out))));
-		SET(m & across, g->cell[a], wall[a] + (g->up[a] - 1.f));
+			SET(m & empty, q->cell[a], fv_max(low[a], fv_min(low[a] + (many - 1.f), fv_trunc(q->at[a] + q->d[a] * out))));
+		SET(m & across, q->cell[a], wall[a] + (q->up[a] - 1.f));
 	}
-	SET(m, g->t, most(g->t, out));
-	g->going &= lt(g->t, g->t1);
+	SET(m, q->t, fv_max(q->t, out));
+	g->going &= lt(q->t, q->t1);
 }
 
 /* Where lanes that reached the target are, from entry; depth[0] of a density is then the target. */
-FN fv passage_end(const struct scene *s, const struct tables *t, struct passage *g, mv m)
+FN fv target_place(const struct volume *v, const struct tables *t, struct voxel_dda *q, mv m)
 {
-	m &= g->reached;
-	if (COUNTED || !any(m))
-		return g->t;
-	fv p[8], v[4], span = g->span;
+	m &= q->reached;
+	if (IS_COUNTED(v) || !any(m))
+		return q->t;
+	fv p[8], f[4], span = q->span;
 	iv i[3];
-	indices(g, i);
-	corners(t, m, brick_of(s, t, m, i), i, p);
+	indices(q, i);
+	corners(t, m, brick_of(v, t, m, i), i, p);
 	EACH(k, 4)    /* four values fix the cubic, which is not negative */
-		v[k] = most(FV(0.f), density_along(g, p, g->t + span * ((float)k * 0.333333333f)));
-	fv all = span * 0.125f * (v[0] + 3.f * (v[1] + v[2]) + v[3]);
-	fv q[5] = { v[0], -5.5f * v[0] + 9.f * v[1] - 4.5f * v[2] + v[3], 9.f * v[0] - 22.5f * v[1] + 18.f * v[2] - 4.5f * v[3],
-		-4.5f * v[0] + 13.5f * v[1] - 13.5f * v[2] + 4.5f * v[3], FV(0.f) };
-	fv share = SEL(lt(FV(0.f), all), least(FV(1.f), (g->target - g->depth[0]) / all), FV(0.f));
-	SET(m, g->t, g->t + span * invert_density(q, share, 4));
-	SET(m, g->depth[0], g->target);
-	return g->t;
+		f[k] = fv_max(FV(0.f), density_along(q, p, q->t + span * ((float)k * 0.333333333f)));
+	fv all = span * 0.125f * (f[0] + 3.f * (f[1] + f[2]) + f[3]);
+	fv cubic[5] = { f[0], -5.5f * f[0] + 9.f * f[1] - 4.5f * f[2] + f[3], 9.f * f[0] - 22.5f * f[1] + 18.f * f[2] - 4.5f * f[3],
+		-4.5f * f[0] + 13.5f * f[1] - 13.5f * f[2] + 4.5f * f[3], FV(0.f) };
+	fv share = SEL(lt(FV(0.f), all), fv_min(FV(1.f), (q->target - q->depth[0]) / all), FV(0.f));
+	SET(m, q->t, q->t + span * invert_density(cubic, share, 4));
+	SET(m, q->depth[0], q->target);
+	return q->t;
+}
+
+FN void voxels_transmittance(const struct scene *s, const struct volume *v, const struct tables *t, struct traversal *g, struct voxel_dda *q,
+                             mv m, struct waves w, fv *out)
+{
+	fv thinnest = FV(FAR);
+	(void)g;
+	EACH_WAVE(j) {
+		out[j] = IS_COUNTED(v) ? q->depth[j] : of_wave(s, t->extinction, 0, m, w, j) * q->depth[0];
+		thinnest = fv_min(thinnest, out[j]);
+	}
+	fv sure = fv_max(FV(0.f), thinnest - SHADOW_DEPTH);    /* e^-sure was the chance to come through */
+	EACH_WAVE(j)
+		out[j] = SEL(q->reached, FV(0.f), expneg(out[j] - sure));
+}
+
+/* Which class of a cube's particles is met: by count x c_ext of the hero. */
+FN iv class_in(const struct scene *s, const struct volume *v, const struct tables *t, mv m, const struct voxel_dda *q, iv wave, fv u)
+{
+	iv i[3];
+	indices(q, i);
+	iv class = IV(0), row = (((i[2] - BRICK) * v->voxels[1] + (i[1] - BRICK)) * v->voxels[0] + (i[0] - BRICK)) * v->n_classes;
+	fv all = FV(0.f), sum = FV(0.f);
+	for (int k = 0; k < v->n_classes; k++)
+		all += to_float(igather(m, t->count, row + k)) * gather(m, t->disc_radius2, k * s->n_waves + wave);
+	for (int k = 0; k < v->n_classes; k++) {
+		fv own = to_float(igather(m, t->count, row + k)) * gather(m, t->disc_radius2, k * s->n_waves + wave);
+		class = SEL(lt(FV(0.f), own) & le(sum, u * all), IV(k), class);
+		sum += own;
+	}
+	return class;
+}
+
+FN struct collision voxels_end(const struct scene *s, const struct volume *v, const struct tables *t, struct traversal *g, struct voxel_dda *q,
+                               mv m, struct waves w, const struct random *random, fv *flight_pdf)
+{
+	struct collision c = { m & q->reached, g->entry, target_place(v, t, q, m), IV(v->n_classes), IV(NONE) };
+	c.point = add(g->entry, scale(g->along, c.t));
+	c.t += g->t0;
+	if (IS_COUNTED(v))
+		c.class = v->only_class >= 0 ? IV(v->only_class)
+		    : class_in(s, v, t, c.happened, q, hero_of(s, w), draw(random, DRAW_CLASS));
+	EACH_WAVE(j) {
+		fv own = of_wave(s, t->extinction, 0, m, w, j), depth = IS_COUNTED(v) ? q->depth[j] : own * q->depth[0];
+		fv rate = IS_COUNTED(v) ? of_class(s, v, t->disc_radius2, c.happened, c.class, w, j) * v->largest_inverse : own;
+		flight_pdf[j] = expneg(depth) * SEL(c.happened, rate, FV(1.f));
+	}
+	return c;
 }
 
 #endif

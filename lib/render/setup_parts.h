@@ -1,0 +1,26 @@
+/* setup_parts - the parts of scene_setup, in the order in which they are made: each fills its part of the scene and its tables. */
+#ifndef RENDER_SETUP_PARTS_H
+#define RENDER_SETUP_PARTS_H
+
+#include "render/scene_setup.h"
+
+/* SET_TABLE - a table that somebody owns. */
+#define SET_TABLE(u, name, pointer, elements) ((u)->tables.name = (pointer), (u)->size.name = (elements))
+
+/* setup_own - setup_free frees p. */
+void *setup_own(struct setup *u, void *p);
+
+/* v to length 1; *out = a x b; v as floats. */
+void unit(double *v);
+void cross(const double *a, const double *b, double *out);
+void to_floats(const double *v, float *out);
+
+void camera_setup(struct camera *c, const struct scenefile *f);
+
+/* volume_setup - needs the transport; suns: whether there are lights of which a forward peak makes spikes. */
+void volume_setup(struct setup *u, const struct scenefile *f, const struct medium *m, int suns);
+
+/* light_setup - lights and surfaces; needs the volume's peak and truncation. */
+void light_setup(struct setup *u, const struct scenefile *f);
+
+#endif

@@ -1,0 +1,152 @@
+#include "render/setup_parts.h"
+
+#include "base/die.h"
+#include "render/colour.h"
+#include "render/forward_peak.h"
+#include "render/kern/voxels.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Cross sections as the kernels want them: discs in m^2, albedos, by class and for the whole. */
+static void optics(struct setup *u, const struct medium *m)
+{
+	struct volume *v = &u->scene.volume;
+	size_t waves = (size_t)m->n_waves, classes = (size_t)m->n_classes;
+	float *extinction = setup_own(u, xalloc(waves, sizeof(float))), *disc_radius2 = setup_own(u, xalloc(classes * waves, sizeof(float)));
+	float *albedo = setup_own(u, xalloc((classes + 1) * waves, sizeof(float)));
+	/* of the whole medium; on a density grid, where the density is 1 */
+	double volume = v->transport == TRANSPORT_GRID && m->kind == MEDIUM_DENSITY ? m->matter : medium_volume(m);
+	for (size_t w = 0; w < waves; w++) {
+		double ext = 0, sca = 0;
+		for (size_t k = 0; k < classes; k++) {
+			double c_ext = m->c_ext[k * waves + w], c_sca = m->c_sca[k * waves + w];
+			disc_radius2[k * waves + w] = (float)(c_ext * 1e-12 / M_PI);
+			v->largest = fmaxf(v->largest, disc_radius2[k * waves + w]);
+			albedo[k * waves + w] = (float)fmin(1, c_sca / c_ext);
+			ext += m->count[k] * c_ext;
+			sca += m->count[k] * c_sca;
+		}
+		extinction[w] = volume > 0 ? (float)(ext * 1e-12 / volume) : 0;
+		albedo[classes * waves + w] = ext > 0 ? (float)fmin(1, sca / ext) : 0;
+	}
+	v->largest_inverse = 1 / v->largest;
+	SET_TABLE(u, extinction, extinction, waves);
+	SET_TABLE(u, disc_radius2, disc_radius2, classes * waves);
+	SET_TABLE(u, albedo, albedo, (classes + 1) * waves);
+}
+
+/* Colours of the wavelengths, and the shares of a light's in them. */
+static void colours(struct setup *u, const struct medium *m)
+{
+	size_t waves = (size_t)m->n_waves;
+	float (*rgb)[3] = xalloc(waves, sizeof *rgb), *colour = setup_own(u, xalloc(waves, 6 * sizeof *colour));
+	const char *wrong = colour_weights(m->n_waves, m->wavelength, rgb);
+	if (wrong)
+		die("medium", "%s", wrong);
+	for (size_t w = 0; w < waves; w++) {     /* shares from the positive parts: a colour out of gamut has others */
+		float sum = 0;
+		for (int c = 0; c < 3; c++)
+			sum += fmaxf(0, rgb[w][c]);
+		for (int c = 0; c < 3; c++) {
+			colour[6 * w + (size_t)c] = rgb[w][c];
+			colour[6 * w + 3 + (size_t)c] = sum > 0 ? fmaxf(0, rgb[w][c]) / sum : 1 / 3.f;
+		}
+	}
+	free(rgb);
+	SET_TABLE(u, colour, colour, 6 * waves);
+}
+
+/* Phase functions, with the peak of the only class where there are suns. */
+static void phases(struct setup *u, const struct medium *m, int suns)
+{
+	struct volume *v = &u->scene.volume;
+	struct forward_peak peak;
+	forward_peak_make(&peak, m, suns ? v->only_class : -1);
+	phase_sampler_make(&u->sampler, peak.n_classes, m->n_waves, peak.range, peak.theta, peak.p, peak.cdf);
+	v->peak = (float)peak.share;
+	v->chain_scale = peak.share > 0 ? (float)(-1 / log(peak.share)) : 0;
+	SET_TABLE(u, truncation, setup_own(u, peak.truncation), (size_t)m->n_waves);
+	peak.truncation = NULL;
+	forward_peak_free(&peak);
+	v->isotropic = u->sampler.isotropic;
+	SET_TABLE(u, phase, u->sampler.phase, u->sampler.n_phase);
+	SET_TABLE(u, interval, u->sampler.interval, u->sampler.n_interval);
+	SET_TABLE(u, alias, u->sampler.alias, u->sampler.n_alias);
+	SET_TABLE(u, angle, u->sampler.angle, u->sampler.n_angle);
+}
+
+/* Fat rays have the area of a pixel's footprint at the medium's nearest depth (eq 23 with kappa 1), and no less than any particle. */
+static float fat_area(const struct scenefile *f, const struct medium *m, float largest)
+{
+	double d2 = 0, pixel = 2 * tan(f->fov * M_PI / 360) / fmax(f->width, f->height), eye2 = 0;
+	for (int a = 0; a < 3; a++) {
+		double eye = f->position[a] - f->medium_position[a];
+		eye2 += eye * eye;
+		d2 += pow(fmax(0, fabs(eye) - m->half[a]), 2);
+	}
+	if (m->round)
+		d2 = pow(fmax(0, sqrt(eye2) - m->half[0]), 2);
+	return (float)fmax(M_PI * largest, pixel * pixel * d2);
+}
+
+/* The grid of particles, and the cylinders that query it. */
+static void particles(struct setup *u, const struct scenefile *f, const struct medium *m)
+{
+	struct volume *v = &u->scene.volume;
+	double span = 0;           /* of the grid's coordinates */
+	v->fat_area = fat_area(f, m, v->largest);
+	v->query_radius2 = v->transport == TRANSPORT_EXPLICIT ? v->largest : v->fat_area / (float)M_PI;
+	for (int a = 0; a < 3; a++) {
+		double high = m->low[a] + (double)m->cells[a] * m->cell[a];
+		v->cells[a] = m->cells[a];
+		v->grid_low[a] = m->low[a];
+		v->cell[a] = m->cell[a];
+		v->grid_centre[a] = (float)((m->low[a] + high) / 2);
+		v->grid_reached[a] = (float)((high - m->low[a]) / 2);
+		span = fmax(span, fmax(fabs(m->low[a]), fabs(high)));
+	}
+	v->query_radius = (float)(sqrt(v->query_radius2) + 2e-6 * span);
+	for (int a = 0; a < 3; a++)
+		v->grid_reached[a] += v->query_radius;
+	SET_TABLE(u, particle, m->particle, 4 * m->n_particles);
+	SET_TABLE(u, first, (const int *)m->first, m->n_first);
+}
+
+static void voxels(struct setup *u, const struct medium *m)
+{
+	struct volume *v = &u->scene.volume;
+	for (int a = 0; a < 3; a++) {
+		/* cells lie between the nodes of a density, and half of one before the first; before all, an empty brick */
+		double side = v->counted ? m->voxel : 2 * m->half[a] / m->voxels[a];
+		v->voxels[a] = m->voxels[a] + !v->counted;
+		v->voxel_low[a] = (float)(-m->half[a] - (BRICK + (v->counted ? 0 : 0.5)) * side);
+		v->voxel[a] = (float)side;
+		v->voxels_per_m[a] = (float)(1 / side);
+	}
+	if (v->transport != TRANSPORT_GRID)
+		return;
+	bricks_make(&u->bricks, m);
+	memcpy(v->bricks, u->bricks.size, sizeof v->bricks);
+	SET_TABLE(u, brick, u->bricks.brick, u->bricks.n_brick);
+	SET_TABLE(u, voxel, u->bricks.voxel, u->bricks.n_voxel);
+	if (v->counted)
+		SET_TABLE(u, count, (const int *)m->voxel_count, (size_t)m->voxels[0] * (size_t)m->voxels[1] * (size_t)m->voxels[2] * (size_t)m->n_classes);
+}
+
+void volume_setup(struct setup *u, const struct scenefile *f, const struct medium *m, int suns)
+{
+	struct volume *v = &u->scene.volume;
+	v->counted = m->kind == MEDIUM_PARTICLES;
+	v->n_classes = m->n_classes;
+	/* particles scatter by their class, everything else as the mixture */
+	v->only_class = v->transport == TRANSPORT_CONTINUOUS || !v->counted ? m->n_classes : m->n_classes == 1 ? 0 : -1;
+	v->round = m->round;
+	to_floats(m->half, v->extent);
+	optics(u, m);
+	colours(u, m);
+	phases(u, m, suns);
+	particles(u, f, m);
+	voxels(u, m);
+}
