@@ -1,7 +1,7 @@
 /* xsect - cross sections and asymmetry parameter of spheres. */
 #include "base/die.h"
 #include "format/columns.h"
-#include "optics/select/method.h"
+#include "optics/select/method_selection.h"
 #include "toolkit/spheres.h"
 
 #include <math.h>
@@ -11,8 +11,6 @@
 #define TOLERANCE 1e-6
 #define DARK 1         /* beta above which light is lost within a radius: extinction seen from afar grows as e^beta (mie_host.h) */
 #define FAILS 1    /* estimated error from which on a method does not hold */
-
-static const char *const names[] = { "auto", "mie", "rayleigh", "goa", "cam", "evans-fournier" };    /* by enum method, as in the column */
 
 struct answer {
 	struct efficiencies q;
@@ -34,10 +32,10 @@ struct dark {
 };
 
 /* n sizes. Those whose coefficients were read, and those in a host that absorbs, are for Lorenz-Mie theory, one by one. */
-static void answers(struct ladder *ladder, int n, struct waves *w, struct answer *a)
+static void answers(struct method_selection *selection, int n, struct waves *w, struct answer *a)
 {
-	static double x[SPHERES_BATCH], error[SPHERES_BATCH];
-	static double complex m[SPHERES_BATCH];
+	static struct sphere sphere[SPHERES_BATCH];
+	static double error[SPHERES_BATCH];
 	static struct efficiencies q[SPHERES_BATCH];
 	static enum method used[SPHERES_BATCH];
 	static int of[SPHERES_BATCH];
@@ -45,11 +43,10 @@ static void answers(struct ladder *ladder, int n, struct waves *w, struct answer
 	for (int i = 0; i < n; i++) {
 		if (w[i].a || w[i].size.x_im > 0)
 			continue;
-		x[many] = w[i].size.x;
-		m[many] = w[i].size.m;
+		sphere[many] = (struct sphere){ .x = w[i].size.x, .m = w[i].size.m };
 		of[many++] = i;
 	}
-	if (many && ladder_many(ladder, many, x, m, q, error, used))
+	if (many && method_selection_many(selection, many, sphere, q, error, used))
 		die(NULL, "out of memory");
 	for (int k = 0; k < many; k++)
 		a[of[k]] = (struct answer){ q[k], error[k], used[k] };
@@ -92,7 +89,8 @@ static int values(int by_x, const struct size *size, const struct answer *a, dou
 	return n;
 }
 
-static void run(struct spheres *in, struct ladder *ladder, const char *output, const char *command, struct worst worst[], struct dark *dark)
+static void run(struct spheres *in, struct method_selection *selection, const char *output, const char *command, struct worst worst[],
+                struct dark *dark)
 {
 	static struct waves w[SPHERES_BATCH];
 	static struct answer a[SPHERES_BATCH];
@@ -103,7 +101,7 @@ static void run(struct spheres *in, struct ladder *ladder, const char *output, c
 	int ncarried = spheres_carried(in, k, cols, cols + k), n = spheres_batch(in, w);
 	struct tab_out *out = tab_create(output, spheres_history(in), command, k + ncarried, cols);
 	for (; n; n = spheres_batch(in, w)) {
-		answers(ladder, n, w, a);
+		answers(selection, n, w, a);
 		for (int i = 0; i < n; i++) {
 			struct worst *most = &worst[a[i].method];
 			int key = spheres_key(in, &w[i].size, row), j = key;
@@ -128,15 +126,15 @@ static void tell(enum method method, const struct worst *w, int verbose)
 	char at[SIZE_NAME];
 	size_name(&w->size, at);
 	if (method != METHOD_MIE && !(w->error < FAILS))
-		warn(names[method], "%s: this method does not hold there (estimated error %.2g, worst of this run)", at, w->error);
+		warn(method_table[method].name, "%s: this method does not hold there (estimated error %.2g, worst of this run)", at, w->error);
 	if (verbose)
-		warn("verbose", "method %s for %lld sizes; estimated error at most %.2g, at %s", names[method], w->n, w->error, at);
+		warn("verbose", "method %s for %lld sizes; estimated error at most %.2g, at %s", method_table[method].name, w->n, w->error, at);
 }
 
 int main(int argc, char **argv)
 {
 	static struct sizes_options sizes = SIZES_INIT;    /* static: the lists in it live as long as the process */
-	static struct worst worst[sizeof names / sizeof *names];
+	static struct worst worst[METHODS];
 	struct dark dark = { .size = { .x_im = 0 } };
 	int method = METHOD_AUTO, verbose = 0;
 	double tolerance = -1;
@@ -160,12 +158,12 @@ int main(int argc, char **argv)
 	sizes.clear_host = method != METHOD_AUTO && method != METHOD_MIE;
 	struct spheres *in = spheres_open(&sizes, args.n ? args.operand[0] : NULL);
 	if (spheres_coeffs(in) && method != METHOD_AUTO && method != METHOD_MIE)
-		die("--method", "%s has no use for the coefficients in %s", names[method], spheres_coeffs(in));
-	struct ladder *ladder = ladder_new(method, tolerance < 0 ? TOLERANCE : tolerance);
-	if (!ladder)
+		die("--method", "%s has no use for the coefficients in %s", method_table[method].name, spheres_coeffs(in));
+	struct method_selection *selection = method_selection_new(method, tolerance < 0 ? TOLERANCE : tolerance);
+	if (!selection)
 		die(NULL, "out of memory");
-	run(in, ladder, output, args.history, worst, &dark);
-	for (int k = 0; k < (int)(sizeof names / sizeof *names); k++)
+	run(in, selection, output, args.history, worst, &dark);
+	for (int k = 0; k < METHODS; k++)
 		if (worst[k].n)
 			tell(k, &worst[k], verbose);
 	if (dark.size.x_im > 0) {
@@ -173,7 +171,7 @@ int main(int argc, char **argv)
 		warn("host", "%s: far-field extinction means little there: %.4g at beta = %.3g (worst of this run)",
 		     size_name(&dark.size, at), dark.ext, 2 * dark.size.x_im);
 	}
-	ladder_free(ladder);
+	method_selection_free(selection);
 	spheres_close(in);
 	return 0;
 }

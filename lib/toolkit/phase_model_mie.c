@@ -3,6 +3,7 @@
 #include "base/die.h"
 #include "optics/goa/goa_plus.h"
 #include "optics/mie/mie_fast_amplitudes.h"
+#include "optics/select/method.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,7 +21,7 @@ struct context {
 };
 
 /* One sphere: its series, or the coefficients for sums; or its rays. */
-struct sphere {
+struct opened {
 	struct phase_sphere known;
 	struct waves *w;
 	int n;
@@ -38,7 +39,7 @@ static struct goa_plus *find_rays(double complex m, int n, const double *theta)
 	return NULL;
 }
 
-static int open_rays(struct context *c, struct sphere *s, int n, const double *theta)
+static int open_rays(struct context *c, struct opened *s, int n, const double *theta)
 {
 	double complex m = s->w->size.m;
 	int k = 0;
@@ -46,7 +47,7 @@ static int open_rays(struct context *c, struct sphere *s, int n, const double *t
 	{
 		while (k < c->n && c->kept[k].m != m)
 			k++;
-		s->own = k == c->n && (k == KEPT || (k + 1) * n > GOA_PLUS_ANGLES);
+		s->own = k == c->n && (k == KEPT || (k + 1) * n > METHOD_GOA_PLUS_ANGLES);
 		if (k == c->n && !s->own && (c->kept[k].rays = find_rays(m, n, theta)))
 			c->kept[c->n++].m = m;
 		s->rays = s->own ? NULL : c->kept[k].rays;
@@ -56,7 +57,7 @@ static int open_rays(struct context *c, struct sphere *s, int n, const double *t
 	return s->rays ? 0 : -1;
 }
 
-static int open_waves(const struct phase_model_mie *r, struct sphere *s, size_t angles)
+static int open_waves(const struct phase_model_mie *r, struct opened *s, size_t angles)
 {
 	struct waves *w = s->w;
 	if (waves_solve(w))
@@ -64,7 +65,7 @@ static int open_waves(const struct phase_model_mie *r, struct sphere *s, size_t 
 	s->known.q_sca = waves_efficiencies(w, NULL).sca;
 	s->known.norm = waves_norm(w, s->known.q_sca);    /* k^2 C_sca: p as the sums give it, not renormalised */
 	s->n = mie_terms_enough(w->n, w->a, w->b, r->tolerance);
-	if (!r->direct && mie_fast_amplitudes_pays(s->n, angles)) {
+	if (!r->direct && method_transform_pays(s->n, angles)) {
 		s->series = mie_fast_amplitudes_new(s->n, w->a, w->b);
 		return s->series ? 0 : -1;
 	}
@@ -76,14 +77,15 @@ static struct phase_sphere *open_sphere(void *context, struct waves *w, size_t n
 {
 	struct context *c = context;
 	const struct phase_model_mie *r = c->request;
-	struct sphere *s = calloc(1, sizeof *s);
+	struct opened *s = calloc(1, sizeof *s);
 	int failed, plus = 0;
 	if (!s)
 		return NULL;
 	s->w = w;
 	if (theta && r->rough > 0) {
-		double error = w->size.x_im > 0 ? 1 : goa_plus_error(w->size.x, w->size.m);
-		plus = error <= r->rough && goa_plus_pays(w->size.x, (int)n);
+		const struct sphere sphere = { .x = w->size.x, .m = w->size.m };
+		double error;
+		plus = w->size.x_im == 0 && method_goa_plus_pays(&sphere, (int)n, r->rough, &error);
 		s->known.method = plus ? "goa+" : "mie";
 		s->known.error = plus ? error : r->tolerance;
 	}
@@ -96,7 +98,7 @@ static struct phase_sphere *open_sphere(void *context, struct waves *w, size_t n
 
 static int at(struct phase_sphere *known, int n, const double *theta, double complex *s1, double complex *s2)
 {
-	struct sphere *s = (struct sphere *)known;
+	struct opened *s = (struct opened *)known;
 	const struct waves *w = s->w;
 	if (s->rays) {
 		struct efficiencies q;
@@ -125,7 +127,7 @@ static int at(struct phase_sphere *known, int n, const double *theta, double com
 
 static void close_sphere(struct phase_sphere *known)
 {
-	struct sphere *s = (struct sphere *)known;
+	struct opened *s = (struct opened *)known;
 	legendre_series_free(s->series);
 	waves_drop(s->w);
 	if (s->own)

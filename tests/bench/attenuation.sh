@@ -2,7 +2,7 @@
 # functions, with the standard errors of the measured points and the curves of theory.
 # usage, by tests/bench/run: attenuation.sh OUT
 out=$1
-"${MOTES_TESTS:?the folder of the C tests}/gather" table >attenuation.tsv
+"${MOTES_TESTS:?the folder of the C tests}/physics/gather" table >attenuation.tsv
 cp attenuation.tsv "$out"
 cat attenuation.tsv
 if ! command -v gnuplot >/dev/null; then

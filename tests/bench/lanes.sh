@@ -7,7 +7,7 @@
 # usage, by tests/bench/run: [BENCH_SECONDS=3] lanes.sh OUT
 out=$1
 bench=$(cd "$(dirname "$0")" && pwd)
-. "$bench/../media.sh"
+. "$bench/../support/media.sh"
 . "$bench/timing"
 seconds=${BENCH_SECONDS:-3}
 export POCL_MAX_PTHREAD_COUNT=2

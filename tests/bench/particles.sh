@@ -6,7 +6,7 @@
 # usage, by tests/bench/run: [BENCH_SECONDS=3] [BENCH_PARTICLES='1e4 1e5 1e6 1e7'] particles.sh OUT
 out=$1
 bench=$(cd "$(dirname "$0")" && pwd)
-. "$bench/../media.sh"
+. "$bench/../support/media.sh"
 . "$bench/timing"
 seconds=${BENCH_SECONDS:-3}
 sizes 1 >one.psd

@@ -19,7 +19,7 @@
 #        [BENCH_SCENES='isotropic c1 cloud sparse'] render.sh OUT
 out=$1
 bench=$(cd "$(dirname "$0")" && pwd)
-. "$bench/../media.sh"
+. "$bench/../support/media.sh"
 . "$bench/timing"
 export POCL_MAX_PTHREAD_COUNT=1
 scenes=${BENCH_SCENES:-isotropic c1 cloud sparse}

@@ -5,7 +5,7 @@
 out=$1
 bench=$(cd "$(dirname "$0")" && pwd)
 data=$bench/../data
-. "$bench/../media.sh"
+. "$bench/../support/media.sh"
 for g in 0 0.5 0.75 0.875; do hg $g >hg$g.phase; done
 seed=0      # from one value to the next it goes on by 2; never chosen
 
@@ -45,7 +45,7 @@ row() {
 		T 0.875 1 0.99 1.0
 		R 0.875 8 0.9 1.0
 	EOT
-	# deep enough that e^(-2 k tau) is below 1e-6; albedo 1: see tests/slab.t
+	# deep enough that e^(-2 k tau) is below 1e-6; albedo 1: see tests/physics/slab.t
 	grep '^[0-9]' "$data/halfspace_isotropic.csv" | tr , ' ' >rows
 	while read -r albedo mu0 h plane _ radiance; do
 		case $albedo in 0.99) tau=40 ;; *) tau=16 ;; esac

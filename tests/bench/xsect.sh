@@ -48,7 +48,7 @@ awk -F'\t' '
 
 # ---- whether it is true
 
-"$MOTES_TESTS/ladder" --honest $spheres | tee xsect_honest.tsv
+"$MOTES_TESTS/physics/method_selection" --honest $spheres | tee xsect_honest.tsv
 awk -F'\t' '
 	NR > 1 {
 		ok = $4 < 0.01 && $5 < 10

@@ -3,7 +3,7 @@
 #include <math.h>
 
 /* 1/z with one division; z is no zero. */
-static double complex over(double complex z)
+static double complex reciprocal(double complex z)
 {
 	double r = 1 / (creal(z) * creal(z) + cimag(z) * cimag(z));
 	return CMPLX(creal(z) * r, -cimag(z) * r);
@@ -21,15 +21,15 @@ void debye_order_amplitude(int p, double complex m, double complex u, double eps
 			q = -q;
 	}
 	double complex k = epsilon ? epsilon * u2 / (2 * ci * ci) : 0, ky = epsilon ? epsilon * u2 / (2 * m * q * q) : 0;
-	double complex inside_out = over(m), c = q * inside_out;
+	double complex over = reciprocal(m), c = q * over;
 	double complex a1 = I * ci - k, a2 = -I * ci - k, l1 = I * c - ky, l2 = -I * c - ky;
 	for (int j = 0; j < 2; j++) {
-		double complex a = j ? inside_out : m, b1 = a * l1, b2 = a * l2, d = over(a1 - b2);
+		double complex a = j ? over : m, b1 = a * l1, b2 = a * l2, d = reciprocal(a1 - b2);
 		if (p == 0) {
 			f[j] = -(a2 - b2) * d;
 			continue;
 		}
-		double complex inside = -(b1 - a1) * over(b2 - a1);
+		double complex inside = -(b1 - a1) * reciprocal(b2 - a1);
 		f[j] = -(a1 - a2) * (b2 - b1) * d * d;
 		for (int i = 1; i < p; i++)
 			f[j] *= inside;

@@ -5,10 +5,12 @@
 
 #include <math.h>
 
-/* x sqrt(D) of a packet's rays, with what absorption leaves. */
-static void spreads(const struct goa_packet *k, double x, const struct goa_cap *cap, double size[GOA_WIDTH])
+/* x sqrt(D) of a packet's rays, with what absorption leaves; returns 0 where that is nothing. */
+static int spreads(const struct goa_packet *k, double x, const struct goa_cap *cap, double size[GOA_WIDTH])
 {
 	int64_t capped = 0;
+	if (x * k->clearest > GOA_ABSORBED)
+		return 0;
 #pragma omp simd reduction(| : capped)
 	for (int i = 0; i < GOA_WIDTH; i++) {
 		capped |= x < k->until[i];
@@ -21,15 +23,15 @@ static void spreads(const struct goa_packet *k, double x, const struct goa_cap *
 #pragma omp simd
 		for (int i = 0; i < GOA_WIDTH; i++)
 			size[i] *= lane_decay(x * k->fade[i]);
+	return 1;
 }
 
 static void coherent(const struct goa_packet *k, size_t n, double x, const struct goa_cap *cap, double s[4][GOA_WIDTH])
 {
 	for (const struct goa_packet *end = k + n; k < end; k++) {
 		double size[GOA_WIDTH];
-		if (x * k->clearest > GOA_ABSORBED)
+		if (!spreads(k, x, cap, size))
 			continue;
-		spreads(k, x, cap, size);
 #pragma omp simd
 		for (int i = 0; i < GOA_WIDTH; i++) {
 			double sine, cosine;
@@ -47,9 +49,8 @@ static void incoherent(const struct goa_packet *k, size_t n, double x, const str
 {
 	for (const struct goa_packet *end = k + n; k < end; k++) {
 		double size[GOA_WIDTH];
-		if (x * k->clearest > GOA_ABSORBED)
+		if (!spreads(k, x, cap, size))
 			continue;
-		spreads(k, x, cap, size);
 #pragma omp simd
 		for (int i = 0; i < GOA_WIDTH; i++) {
 			double power = size[i] * size[i];

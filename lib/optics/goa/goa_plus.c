@@ -89,10 +89,3 @@ double goa_plus_error(double x, double complex m)
 	/* resonances of a small sphere of high index, a little beside their places; what orders left out hold between strong mirrors */
 	return fmin(1, 0.005 + (0.1 + 2 * fmax(n - 1, 0)) / x + 0.0035 * fmax(n - 2.5, 0));
 }
-
-int goa_plus_pays(double x, int ntheta)
-{
-	/* in 0.3 ns, as measured with AVX-512: waves at the edge, and 20 us an angle, shared, for rays, against a partial wave's
-	 * coefficients and its terms at every angle, or what it costs in a series (mie_fast_amplitudes_pays) */
-	return ntheta <= GOA_PLUS_ANGLES && x * (100 + fmin(ntheta, 1200)) > 1e6 + 64000.0 / GOA_PLUS_SHARED * ntheta;
-}

@@ -27,10 +27,4 @@ int goa_plus_at(const struct goa_plus *g, double x, double complex *s1, double c
  * approximation does not hold. */
 double goa_plus_error(double x, double complex m);
 
-/* goa_plus_pays - whether a size at so many angles is expected to take less time than by mie_fast_amplitudes.h, rays being found once for
- * GOA_PLUS_SHARED sizes of an index. It does not know how many there are: a size is computed alike alone and among others. */
-#define GOA_PLUS_SHARED 8
-#define GOA_PLUS_ANGLES 100000     /* at most, by the memory they take */
-int goa_plus_pays(double x, int ntheta);
-
 #endif

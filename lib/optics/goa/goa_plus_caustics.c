@@ -9,7 +9,7 @@
 #define ZETA_BRIGHT 5      /* Airy pairs as long as zeta is below; the rays' second order is then good to 1e-3 */
 #define ZETA_DARK 6        /* on the dark side nothing is left beyond */
 #define Z_GLORY 20         /* Bessel pairs below */
-#define LEAST_SIZE 100     /* below, all is waves (goa_plus_edge.c): pairs that serve no larger size are left out */
+#define LEAST_SIZE 100     /* below, all is waves (goa_plus_windows.c): pairs that serve no larger size are left out */
 #define NEAR 0.5           /* rad from an axis within which glories are looked for */
 
 static double complex eighth(int k)

@@ -10,7 +10,7 @@
 /* one sphere, in plain doubles */
 #define LANES 1
 #define UNROLL 1
-#include "optics/mie/mie_solve.h"
+#include "optics/mie/mie_coefficients.h"
 
 int mie_terms(double x, double complex m)
 {

@@ -45,4 +45,9 @@ struct efficiencies mie_efficiencies(double x, int lossless, int n, const double
 int mie_amplitudes(int n, const double complex *a, const double complex *b, int ntheta, const double *theta,
                    double complex *s1, double complex *s2);
 
+/* mie_terms_enough - how many of n terms are enough for p within tolerance in L1 (half the integral of |dp| over the sphere): by
+ * Schwarz's inequality no more than the root of the share that the others have in scattering, to first order. n where tolerance
+ * is 0. */
+int mie_terms_enough(int n, const double complex *a, const double complex *b, double tolerance);
+
 #endif

@@ -126,3 +126,18 @@ int mie_amplitudes(int n, const double complex *a, const double complex *b, int 
 	free(f);
 	return 0;
 }
+
+int mie_terms_enough(int n, const double complex *a, const double complex *b, double tolerance)
+{
+	double all = 0, rest = 0;
+	if (tolerance <= 0)
+		return n;
+	for (int l = n; l >= 1; l--)
+		all += (2.0 * l + 1) * (norm2(a[l]) + norm2(b[l]));
+	for (; n > 1; n--) {
+		rest += (2.0 * n + 1) * (norm2(a[n]) + norm2(b[n]));
+		if (rest > tolerance * tolerance * all)
+			break;
+	}
+	return n;
+}

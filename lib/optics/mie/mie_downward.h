@@ -3,7 +3,7 @@
  * Upward, psi_l(z) would be lost where l > |z|, and at any order for complex z. Its ratios E_l(z) = -psi_{l+1}(z)/psi_l(z) come down,
  * two to a division, from 0 at an order high enough, to |z|. Below, where they come near poles, an absorbing sphere goes on with p_l, a
  * multiple of psi_l(y), which needs no division. For m near 1, d_l = E_l(y) - E_l(x) comes down beside E_l(x).
- * Source: Gautschi 1967, SIAM Review 9, 24, on minimal solutions. Symbols as in mie_solve.h. */
+ * Source: Gautschi 1967, SIAM Review 9, 24, on minimal solutions. Symbols as in mie_coefficients.h. */
 #ifndef OPTICS_MIE_DOWNWARD_H
 #define OPTICS_MIE_DOWNWARD_H
 

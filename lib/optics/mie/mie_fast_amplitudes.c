@@ -39,25 +39,3 @@ void mie_fast_amplitudes_at(const struct legendre_series *s, int ntheta, const d
 		}
 	}
 }
-
-int mie_fast_amplitudes_pays(int n, size_t ntheta)
-{
-	/* in units of a term at one angle, as measured with AVX-512: a series is begun, and costs per order and, more than sums, per angle */
-	double angles = (double)ntheta;
-	return n * angles > 4e5 + 1200.0 * n + 90 * angles;
-}
-
-int mie_terms_enough(int n, const double complex *a, const double complex *b, double tolerance)
-{
-	double all = 0, rest = 0;
-	if (tolerance <= 0)
-		return n;
-	for (int l = n; l >= 1; l--)
-		all += (2.0 * l + 1) * (norm2(a[l]) + norm2(b[l]));
-	for (; n > 1; n--) {
-		rest += (2.0 * n + 1) * (norm2(a[n]) + norm2(b[n]));
-		if (rest > tolerance * tolerance * all)
-			break;
-	}
-	return n;
-}

@@ -6,8 +6,6 @@
 #include "optics/mie/mie.h"
 #include "optics/numerics/legendre_series.h"
 
-#include <stddef.h>
-
 /* mie_fast_amplitudes_new - a series whose values are Re S1, Im S1, Re S2, Im S2, from a[n+1], b[n+1]; NULL when memory ran out.
  *
  * With tau_l = l(l+1) P_l - mu pi_l, pi_l = P_l' and the sums of Legendre polynomials for these, the coefficient of P_k in S1 is
@@ -19,13 +17,5 @@ struct legendre_series *mie_fast_amplitudes_new(int n, const double complex *a, 
  * are many. */
 void mie_fast_amplitudes_at(const struct legendre_series *s, int ntheta, const double *theta,
                             double complex *s1, double complex *s2);
-
-/* mie_fast_amplitudes_pays - whether a series is expected to take less time than mie_amplitudes. */
-int mie_fast_amplitudes_pays(int n, size_t ntheta);
-
-/* mie_terms_enough - how many of n terms are enough for p within tolerance in L1 (half the integral of |dp| over the sphere): by
- * Schwarz's inequality no more than the root of the share that the others have in scattering, to first order. n where tolerance
- * is 0. */
-int mie_terms_enough(int n, const double complex *a, const double complex *b, double tolerance);
 
 #endif

@@ -4,7 +4,7 @@
 
 #define LANES 1
 #define UNROLL 1
-#include "optics/mie/mie_solve.h"
+#include "optics/mie/mie_coefficients.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -40,7 +40,7 @@ static double complex inverse(double complex z)
 /* i z */
 static double complex turned(double complex z) { return CMPLX(-cimag(z), creal(z)); }
 
-/* E_l(x) (of mie_solve.h), and E_l(y), or where m is near 1 their difference d_l, for 0 <= l <= n. */
+/* E_l(x) (of mie_coefficients.h), and E_l(y), or where m is near 1 their difference d_l, for 0 <= l <= n. */
 static void ratios(double complex x, double complex m, int n, int near, double complex rise, double complex *ex, double complex *e)
 {
 	double complex y = m * x, inv_x = inverse(x), inv_y = inverse(y), at_x = 0, at_y = 0, d = 0;
@@ -106,8 +106,8 @@ int mie_host_coefficients(double complex x, double complex m, int n, double comp
 	return 0;
 }
 
-/* e^(-beta) / gamma */
-static double share(double complex x)
+/* e^(-beta) / gamma, the factor of eq 29. */
+static double per_incident(double complex x)
 {
 	double beta = 2 * cimag(x);
 	return exp(-2 * beta) / mie_host_gamma(beta);
@@ -116,7 +116,7 @@ static double share(double complex x)
 struct efficiencies mie_host_efficiencies(double complex x, int n, const double complex *a, const double complex *b, double *error)
 {
 	struct mie_sums q;
-	double ext_im = 0, bulk_re = 0, bulk_im = 0, x2 = norm2(x), of_x = share(x);
+	double ext_im = 0, bulk_re = 0, bulk_im = 0, x2 = norm2(x), of_x = per_incident(x);
 	mie_sums_of(0, n, a, b, &q);
 	for (int l = 1; l <= n; l++) {
 		double w = 2.0 * l + 1;
@@ -142,5 +142,5 @@ struct efficiencies mie_host_efficiencies(double complex x, int n, const double 
 
 double mie_host_norm(double complex x, double sca)
 {
-	return M_PI * norm2(x) * sca / share(x);
+	return M_PI * norm2(x) * sca / per_incident(x);
 }

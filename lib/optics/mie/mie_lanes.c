@@ -2,7 +2,7 @@
 #include "optics/mie/mie_lanes.h"
 
 #define UNROLL 4
-#include "optics/mie/mie_solve.h"
+#include "optics/mie/mie_coefficients.h"
 
 #include <string.h>
 

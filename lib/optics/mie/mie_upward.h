@@ -1,5 +1,5 @@
 /* mie_upward - what Lorenz-Mie theory has by upward recurrence, of a vector of spheres: Riccati-Bessel functions of x, and of y = m x where
- * that is real. Included with LANES and UNROLL set; symbols as in mie_solve.h. */
+ * that is real. Included with LANES and UNROLL set; symbols as in mie_coefficients.h. */
 #ifndef OPTICS_MIE_UPWARD_H
 #define OPTICS_MIE_UPWARD_H
 

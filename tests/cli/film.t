@@ -1,0 +1,192 @@
+#!/bin/sh
+# The film: its layers hold what they say, and parts of an image add up to its bytes.
+# shellcheck source=tests/support/lib.sh
+. "$(dirname "$0")/../support/lib.sh"
+# shellcheck source=tests/support/render.sh
+. "$top/tests/support/render.sh"
+
+# far NAME MEDIUM MORE: the cube's face from 1000 m, rays all but parallel; only its middle 1.745 m are seen
+far() {
+	echo "camera = { position = [0.0, 0.0, 1000.0]; target = [0.0, 0.0, 0.0]; fov = 0.1; resolution = [64, 64]; };
+		medium = { file = \"$2\"; }; $3" >"$1"
+}
+# layer FILE CHANNEL Min|Max|Avg, as an independent reader has it
+layer() {
+	oiiotool "$1" --ch "$2" --mulc 1e4 -d float -o layer.exr    # it prints six places
+	oiiotool --stats layer.exr | awk -v what="$3:" '$1 == "Stats" && $2 == what { print $3 / 1e4 }'
+}
+average() { layer "$1" "$2" Avg; }
+most() { layer "$1" "$2" Max; }
+
+hg 0 >iso.phase
+for m in 'black 0' 'white 1'; do
+	cube "${m% *}.medium" 1e6 "${m#* }" iso.phase
+	dispersed 4e8 "${m#* }" 0.55 >grains.xsect
+	grains "${m% *}-grains.medium" 2e4 grains.xsect iso.phase
+done
+
+# ---- light by orders: what was not scattered is the black medium's image, path by path
+
+lights='lights = ( { type = "environment"; radiance = 0.2; }, { type = "sun"; direction = [-0.6, -1.0, -0.3]; irradiance = 2.0; angle = 10.0; } );'
+for t in continuous explicit fat-ray grid; do
+	[ $t = continuous ] && grainy= || grainy=-grains
+	for ground in '' ' ground = { height = -1.2; albedo = 0.4; };'; do
+		for m in black white; do
+			scene $m.scene "$m$grainy.medium" 32 "$lights$ground"
+			vrender $m.scene --samples 16 --transport $t -o $m.exr
+		done
+		oiiotool black.exr --ch R,G,B white.exr --ch R=single.R,G=single.G,B=single.B --add \
+			white.exr --ch R=multiple.R,G=multiple.G,B=multiple.B --add -d float -o sum.exr
+		imgcmp --channels R,G,B --max 2e-6 sum.exr white.exr >diff.txt
+		ok $? "unscattered, single and multiple make up the image: $t${ground:+, ground}"
+		[ "$(most black.exr single.R) $(most black.exr multiple.R)" = '0 0' ] &&
+			near "$(average white.exr multiple.G)" 0.1 0.09
+		ok $? "a black medium scatters nothing, a white one does: $t${ground:+, ground}"
+	done
+done
+# a parallel sun from +x of irradiance 4 pi on extinction 1/m: (1 - e^-2) times the mean of e^-(1 - x) over what is seen
+far sun.scene white.medium 'lights = ( { type = "sun"; direction = [-1, 0, 0]; irradiance = 12.566370614; } );'
+vrender sun.scene --samples 64 -o sun.exr
+want=$(awk 'BEGIN { w = 0.872665; print (1 - exp(-2)) * exp(-1) * (exp(w) - exp(-w)) / 2 / w }')
+# 64^2 x 64 samples of spread below 0.3: standard error below 6e-4
+near "$(average sun.exr single.G)" "$want" 0.0024
+ok $? "single scattering: $(average sun.exr single.G), wanted $want"
+
+# ---- alpha and depth
+
+for t in continuous explicit fat-ray grid; do
+	[ $t = continuous ] && grainy= || grainy=-grains
+	far beer.scene "black$grainy.medium" ''
+	vrender beer.scene --samples 64 --transport $t -o beer.exr
+	oiiotool beer.exr --ch R beer.exr --ch R=A --add -d float -o one.exr
+	near "$(layer one.exr R Min)" 1 2e-6 && near "$(most one.exr R)" 1 2e-6
+	ok $? "$t: alpha is what a black medium takes away, in every pixel"
+done
+# 64^2 x 64 coins: standard error 6.7e-4
+far beer.scene black.medium ''
+vrender beer.scene --samples 64 -o beer.exr
+near "$(average beer.exr A)" 0.8646647 0.003
+ok $? "alpha by Beer and Lambert: $(average beer.exr A)"
+# from the face at 999 m: mean 1/s - L e^-sL / (1 - e^-sL), spread 0.54 m, standard error 1.1e-3 m
+near "$(average beer.exr depth.Z)" 999.68696 0.005
+ok $? "mean depth of the first scattering: $(average beer.exr depth.Z)"
+scene aside.scene black.medium 8 ''
+sed -i 's/target = .0.0, 0.0, 0.0./target = [9.0, 9.0, 9.0]/' aside.scene
+vrender aside.scene --samples 4 -o aside.exr
+is '0 0' "$(most aside.exr A) $(most aside.exr depth.Z)" 'beside the medium alpha and depth are 0'
+
+# ---- the variance is the spread of single samples over seeds, by the number of samples; the mean's own is no larger; none where all
+# samples are equal
+
+scene cube.scene white.medium 48 "$lights"
+# spread SAMPLES PAIRS: the variance of a pixel over seeds, by pairs of images
+spread() {
+	for s in $(seq "$2"); do
+		vrender cube.scene --samples "$1" --seed $((2 * s)) -o a.exr
+		vrender cube.scene --samples "$1" --seed $((2 * s + 1)) -o b.exr
+		imgcmp --channels G --rms 99 a.exr b.exr | awk '$1 == "G" { print $2 * $2 / 2 }'
+	done | awk '{ s += $1 } END { print s / NR }'
+}
+vrender cube.scene --samples 256 --seed 1 -o long.exr
+of_one=$(average long.exr variance.Y | awk '{ print $1 * 256 }')
+single=$(spread 1 24)
+# 55,296 differences, each squared: for a sample whose kurtosis is 20 the relative standard error is 1.9 %
+near "$(awk -v a="$of_one" -v b="$single" 'BEGIN { print a / b }')" 1 0.08
+ok $? "variance of a sample $of_one, over seeds $single"
+many=$(spread 64 3)
+awk -v a="$of_one" -v b="$many" 'BEGIN { exit !(64 * b < 1.1 * a) }'
+ok $? "of the mean of 64, times 64: $(awk -v b="$many" 'BEGIN { print 64 * b }')"
+scene furnace.scene white.medium 16 ''
+vrender furnace.scene --samples 16 -o furnace.exr
+near "$(most furnace.exr variance.Y)" 0 1e-9
+ok $? 'the furnace has none'
+vrender furnace.scene --samples 1 -o furnace1.exr
+is 0 "$(most furnace1.exr variance.Y)" 'nor has a single sample'
+
+# ---- parts of an image
+
+hg 0.1 0.45 0.55 0.65 >three.phase
+dispersed 4e8 0.97 0.45 0.55 0.65 >three.xsect
+grains three.medium 2e4 three.xsect three.phase
+full="lights = ( { type = \"environment\"; radiance = 0.3; }, { type = \"sun\"; direction = [-0.6, -1.0, -0.3]; irradiance = 2.0; angle = 10.0; },
+	{ type = \"sun\"; direction = [1, -1, 0]; irradiance = 1; } ); ground = { height = -1.2; albedo = 0.4; };"
+scene three.scene three.medium 24 "$full"
+for t in explicit fat-ray grid continuous; do
+	for o in '' --spectral; do
+		vrender three.scene --transport $t $o --samples 9 -o whole.exr
+		vrender three.scene --transport $t $o --sample-range 0:3 -o a.exr
+		vrender three.scene --transport $t $o --sample-range 3:4 --backend opencl -o b.exr
+		vrender three.scene --transport $t $o --sample-range 4:9 --threads 1 -o c.exr
+		exr-merge -o m.exr c.exr a.exr b.exr
+		cmp whole.exr m.exr
+		ok $? "$t $o: three parts, one of them by OpenCL, make the image's bytes"
+		exr-merge -o ac.exr a.exr c.exr
+		exr-merge -o m.exr b.exr ac.exr
+		cmp whole.exr m.exr
+		ok $? "$t $o: in another grouping too"
+		vrender three.scene --transport $t $o --samples 9 --sample-range 0:4 -o a.exr
+		vrender three.scene --transport $t $o --sample-range 4:9 --samples 9 -o b.exr
+		exr-merge -o - - a.exr <b.exr >m.exr
+		cmp whole.exr m.exr
+		ok $? "$t $o: two parts, of a whole known beforehand, through pipes"
+		vrender three.scene --transport $t $o --samples 9 --backend opencl -o cl.exr
+		cmp whole.exr cl.exr
+		ok $? "$t $o: OpenCL gives the bytes of C"
+	done
+done
+vrender three.scene --sample-range 0:3 --samples 9 -o a.exr
+vrender three.scene --sample-range 3:4 --samples 9 -o b.exr
+vrender three.scene --sample-range 4:9 --samples 9 -o c.exr
+vrender three.scene --samples 9 -o whole.exr
+vrender three.scene --sample-range 2:5 --samples 9 -o overlap.exr
+exr-merge -o ab.exr a.exr b.exr
+exr-merge -o m.exr c.exr ab.exr
+cmp whole.exr m.exr
+ok $? 'a whole known beforehand: its first parts stay a part'
+exr-merge -o same.exr ab.exr
+cmp ab.exr same.exr
+ok $? 'a part alone stays what it is'
+oiiotool --stats whole.exr >stats.txt && oiiotool --stats ab.exr >>stats.txt && ! grep -E 'NanCount.*[1-9]|InfCount.*[1-9]' stats.txt
+ok $? 'an independent reader takes both, and finds nothing that is no number'
+imgcmp --channels R,G,B,A,single.G ab.exr ab.exr >/dev/null && exr2png ab.exr -o ab.png
+ok $? 'and so do our own, a part like a whole'
+imgcmp --max 9e9 a.exr c.exr >out && ! grep sum out && ! imgcmp ab.exr overlap.exr >out && grep -q 'sum.R.lo: other integers' out
+ok $? 'their sums are compared bit by bit, never as numbers'
+
+refused 'samples twice' 'overlap.exr: its samples 2:5 of 9 are in part among' exr-merge -o x.exr a.exr overlap.exr
+refused 'a part twice' 'a.exr: its samples' exr-merge -o x.exr a.exr b.exr a.exr
+vrender three.scene --sample-range 3:4 --samples 9 --seed 2 -o seed.exr
+refused 'another seed' 'seed.exr: is not of the same image' exr-merge -o x.exr a.exr seed.exr
+vrender three.scene --sample-range 3:4 -o open.exr
+refused 'another whole' 'open.exr: is not of the same image' exr-merge -o x.exr a.exr open.exr
+refused 'an image without sums' 'whole.exr: has no sums to add' exr-merge -o x.exr a.exr whole.exr
+refused 'a part beyond the whole' "'4:10' goes beyond --samples 9" vrender three.scene --samples 9 --sample-range 4:10 -o x.exr
+refused 'no range' 'is not A:B' vrender three.scene --sample-range 4 -o x.exr
+refused 'an empty range' 'is an empty range' vrender three.scene --sample-range 4:4 -o x.exr
+scene hot.scene white.medium 4 'lights = ( { type = "environment"; radiance = 1e9; } );'
+for r in 0:3 3:6; do vrender hot.scene --sample-range $r -o hot$r.exr; done
+refused 'more light than a film holds, in the sum' 'too strong' exr-merge -o x.exr hot0:3.exr hot3:6.exr
+is '' "$(ls x.exr* 2>/dev/null)" 'no image appears under its name'
+
+# ---- spectral layers
+
+vrender three.scene --samples 4 --spectral -o spectral.exr
+ok "$("$MOTES_BUILD/tests/unit/film" spectral.exr >got; echo $?)" "the wavelengths' colours are the image's: $(cat got)"
+scene coloured.scene three.medium 24 'lights = ( { type = "sun"; direction = [-0.6, -1.0, -0.3]; irradiance = [3.0, 1.0, 0.2]; } );'
+vrender coloured.scene --samples 4 --spectral -o spectral.exr
+ok "$("$MOTES_BUILD/tests/unit/film" spectral.exr >got; echo $?)" "of a coloured light, by three wavelengths: $(cat got)"
+many='0.40 0.42 0.44 0.46 0.48 0.50 0.52 0.54 0.56 0.58 0.60'
+# shellcheck disable=SC2086
+{
+	hg 0.3 $many >many.phase
+	cube many.medium 1e6 0.9 many.phase $many
+}
+scene many.scene many.medium 24 "$lights"
+vrender many.scene --samples 32 --spectral -o many.exr
+ok "$("$MOTES_BUILD/tests/unit/film" many.exr >got; echo $?)" "with paths that carry a part of them each too: $(cat got)"
+is 'spectralLayoutVersion: "1.0" emissiveUnits: "W.m^-2.sr^-1"' \
+	"$(oiiotool --info -v many.exr | sed -n 's/^ *\(spectralLayoutVersion.*\)/\1/p') $(oiiotool --info -v many.exr | sed -n 's/^ *\(emissiveUnits.*\)/\1/p')" \
+	'the layout is named'
+oiiotool --info -v many.exr | grep -q 'S0.400,000000nm.*S0.600,000000nm'
+ok $? 'and so are the channels'
+done_testing
