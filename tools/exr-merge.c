@@ -1,10 +1,10 @@
 /* exr-merge - the parts of an image, rendered apart, into one. */
 #include "base/die.h"
 #include "base/opt.h"
+#include "base/standard.h"
 #include "render/image.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 int main(int argc, char **argv)
 {
@@ -21,14 +21,14 @@ int main(int argc, char **argv)
 		die(NULL, "needs the parts of an image; see exr-merge --help");
 	int from_stdin = 0;
 	for (int i = 0; i < args.n; i++)
-		from_stdin += !strcmp(args.operand[i], "-");
+		from_stdin += standard(args.operand[i]);
 	if (from_stdin > 1)
 		die(NULL, "only one of the images can be standard input");
 	struct image all, more;
 	image_read(args.operand[0], &all);
 	for (int i = 1; i < args.n; i++) {
 		image_read(args.operand[i], &more);
-		image_merge(&all, &more, strcmp(args.operand[i], "-") ? args.operand[i] : "standard input");
+		image_merge(&all, &more, standard_input(args.operand[i]));
 		image_free(&more);
 	}
 	struct out out = out_open(output, 1);

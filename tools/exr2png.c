@@ -1,12 +1,12 @@
 /* exr2png - a picture to look at: linear light to sRGB. */
 #include "base/die.h"
 #include "base/opt.h"
+#include "base/standard.h"
 #include "format/exr.h"
 #include "format/png.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static const struct exr_channel *channel(const struct exr *image, const char *path, const char *name)
 {
@@ -31,7 +31,7 @@ int main(int argc, char **argv)
 	struct opt_line args = opt_parse(&tool, argc, argv);
 	if (args.n > 1)
 		die(args.operand[1], "one image at most");
-	const char *path = args.n && strcmp(args.operand[0], "-") ? args.operand[0] : "standard input";
+	const char *path = standard_input(args.n ? args.operand[0] : NULL);
 
 	struct exr image;
 	exr_read(args.n ? args.operand[0] : NULL, &image);

@@ -2,8 +2,9 @@
 #include "base/die.h"
 #include "base/opt.h"
 #include "base/out.h"
-#include "format/tab.h"
+#include "base/standard.h"
 #include "format/exr.h"
+#include "format/tab.h"
 
 #include <float.h>
 #include <math.h>
@@ -172,9 +173,9 @@ int main(int argc, char **argv)
 	struct opt_line args = opt_parse(&tool, argc, argv);
 	if (args.n != 2)
 		die(NULL, "needs two images; see imgcmp --help");
-	if (!strcmp(args.operand[0], "-") && !strcmp(args.operand[1], "-"))
+	if (standard(args.operand[0]) && standard(args.operand[1]))
 		die(NULL, "only one of the images can be standard input");
-	if (picture && !strcmp(picture, "-"))
+	if (picture && standard(picture))
 		die("--difference", "needs a file; standard output has the figures");
 	static struct exr a, b;
 	exr_read(args.operand[0], &a);

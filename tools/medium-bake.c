@@ -1,11 +1,13 @@
 /* medium-bake - particles, or a size distribution with a concentration, and their optics become a medium file. */
 #include "base/die.h"
 #include "base/opt.h"
+#include "format/limits.h"
 #include "format/tab.h"
 #include "medium/bake.h"
-#include "medium/particle_grid.h"
 #include "medium/classes.h"
+#include "medium/medium_file.h"
 #include "medium/particle_counts.h"
+#include "medium/particle_grid.h"
 
 #include <float.h>
 #include <math.h>
@@ -23,7 +25,7 @@ int main(int argc, char **argv)
 		{ "--box", OPT_BOX, box, 1e-9, 1e6, "X,Y,Z", "the medium fills a box", 0 },
 		{ "--sphere", OPT_M, &sphere, 1e-9, 1e6, "R", "the medium fills a sphere", 0 },
 		{ "--density", OPT_FILE, &density, 0, 0, "GRID.npy", "relative density in the box, [z][y][x], with --psd", 0 },
-		{ "--voxels", OPT_INT, &voxels, 1, VOXELS_SIDE, "N", "voxels along the longest side", 0 },
+		{ "--voxels", OPT_INT, &voxels, 1, MEDIUM_VOXELS_SIDE, "N", "voxels along the longest side", 0 },
 		{ "-o", OPT_FILE, &output, 0, 0, "FILE", "the medium file", 1 },
 		OPT_END
 	};
@@ -46,20 +48,21 @@ int main(int argc, char **argv)
 		die("--concentration", "needs --psd");
 	if (!psd && density)
 		die("--density", "needs --psd; particles have their own");
+	m.kind = psd ? MEDIUM_DENSITY : MEDIUM_PARTICLES;
 	m.round = !isnan(sphere);
 	for (int a = 0; a < 3 && bounded; a++)
 		m.half[a] = m.round ? sphere : box[a] / 2;
 
 	if (psd)
-		fill_density(density, (int)voxels, &m);
-	char *history = optics_cross_sections(xsect, &m);
-	char *matter = psd ? fill_psd(psd, concentration, &m) : fill_particles(args.n ? args.operand[0] : NULL, bounded, &m);
-	char *phases = optics_phase(phase, &m);
+		bake_density(density, (int)voxels, &m);
+	char *history = classes_cross_sections(xsect, &m);
+	char *matter = psd ? bake_psd(psd, concentration, &m) : bake_particles(args.n ? args.operand[0] : NULL, bounded, &m);
+	char *phases = classes_phase_functions(phase, &m);
 	m.history = tab_join(history, phases, matter, args.history, NULL);
-	if (m.n_particles) {
-		grid_build(&m);
-		voxels_count(&m, (int)voxels);
+	if (m.kind == MEDIUM_PARTICLES) {
+		particle_grid_build(&m);
+		particle_counts_build(&m, (int)voxels);
 	}
-	medium_write(output, &m);
+	medium_file_write(output, &m);
 	return 0;
 }

@@ -1,30 +1,31 @@
 /* mie-coeffs - partial-wave coefficients of spheres by Lorenz-Mie theory. */
 #include "base/die.h"
 #include "toolkit/coeffs.h"
+#include "toolkit/spheres.h"
 
 #include <string.h>
 
-static void put(struct tab_out *out, struct coeffs *in, const struct waves *w)
+static void put(struct tab_out *out, struct spheres *in, const struct waves *w)
 {
 	double row[TAB_COLS];
-	int k = coeffs_key(in, &w->size, row);
-	coeffs_carry(in, w, row + k + COEFFS_COLS);
+	int k = spheres_key(in, &w->size, row);
+	spheres_carry(in, w, row + k + COEFFS_COLS);
 	for (int l = 1; l <= w->n; l++) {
 		coeffs_values(w, l, row + k);
 		tab_put(out, row);
 	}
 }
 
-static void run(struct coeffs *in, const char *output, const char *command)
+static void run(struct spheres *in, const char *output, const char *command)
 {
-	static struct waves w[COEFFS_BATCH];
+	static struct waves w[SPHERES_BATCH];
 	struct tab_col cols[TAB_COLS];
-	int k = coeffs_columns(in, cols);
-	memcpy(cols + k, coeffs_cols, sizeof coeffs_cols);
+	int k = spheres_key_columns(in, cols);
+	memcpy(cols + k, column_coeffs, sizeof column_coeffs);
 	k += COEFFS_COLS;
-	int ncarried = coeffs_carried(in, k, cols, cols + k), n = coeffs_batch(in, w), failed = 0;
-	struct tab_out *out = tab_create(output, coeffs_history(in), command, k + ncarried, cols);
-	for (; n; n = coeffs_batch(in, w)) {
+	int ncarried = spheres_carried(in, k, cols, cols + k), n = spheres_batch(in, w), failed = 0;
+	struct tab_out *out = tab_create(output, spheres_history(in), command, k + ncarried, cols);
+	for (; n; n = spheres_batch(in, w)) {
 #pragma omp parallel for schedule(dynamic) reduction(|:failed) if (n > 1)
 		for (int i = 0; i < n; i++)
 			failed |= waves_solve(&w[i]) != 0;
@@ -51,8 +52,8 @@ int main(int argc, char **argv)
 	struct opt_line args = opt_parse(&tool, argc, argv);
 	if (args.n > 1)
 		die(args.operand[1], "one table at most");
-	struct coeffs *in = coeffs_open_sizes(&sizes, args.n ? args.operand[0] : NULL);
+	struct spheres *in = spheres_open_sizes(&sizes, args.n ? args.operand[0] : NULL);
 	run(in, output, args.history);
-	coeffs_close(in);
+	spheres_close(in);
 	return 0;
 }

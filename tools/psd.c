@@ -1,7 +1,7 @@
 /* psd - a particle size distribution as a table of classes. */
 #include "base/die.h"
 #include "base/opt.h"
-#include "format/tab.h"
+#include "format/columns.h"
 #include "optics/sizes/psd.h"
 
 #include <float.h>
@@ -83,9 +83,7 @@ int main(int argc, char **argv)
 	const char *bad = psd_classes(&p, n, c);
 	if (bad)
 		die(word, "%s", bad);
-	const struct tab_col cols[] = {
-		{ "radius", TAB_F64, "um" }, { "weight", TAB_F64, "1" }, { "radius_lo", TAB_F64, "um" }, { "radius_hi", TAB_F64, "um" },
-	};
+	const struct tab_col cols[] = { column_radius, column_weight, column_radius_lo, column_radius_hi };
 	struct tab_out *t = tab_create(output, "", args.history, 4, cols);
 	for (int i = 0; i < n; i++)
 		tab_put(t, (double[]){ c[i].radius, c[i].weight, c[i].lo, c[i].hi });

@@ -2,6 +2,7 @@
 #include "base/die.h"
 #include "base/opt.h"
 #include "base/out.h"
+#include "base/standard.h"
 #include "format/tab.h"
 
 #include <float.h>
@@ -81,7 +82,7 @@ int main(int argc, char **argv)
 	struct opt_line args = opt_parse(&tool, argc, argv);
 	if (args.n != 2)
 		die(NULL, "needs two tables; see tabcmp --help");
-	if (!strcmp(args.operand[0], "-") && !strcmp(args.operand[1], "-"))
+	if (standard(args.operand[0]) && standard(args.operand[1]))
 		die(NULL, "only one of the tables can be standard input");
 	struct tab *a = tab_open(args.operand[0]), *b = tab_open(args.operand[1]);
 	struct out out = out_open(NULL, 0);

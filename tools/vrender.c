@@ -3,6 +3,7 @@
 #include "base/opt.h"
 #include "base/out.h"
 #include "format/tab.h"
+#include "medium/medium_file.h"
 #include "render/backend.h"
 #include "render/image.h"
 
@@ -112,30 +113,31 @@ int main(int argc, char **argv)
 	if (!part)
 		to = samples = samples ? samples : SAMPLES;
 	struct scenefile file;
-	struct medium medium;
+	struct medium_file baked;
+	const struct medium *medium = &baked.medium;
 	struct setup setup;
 	struct film film;
 	const char *path = args.n ? args.operand[0] : "-";
 	scenefile_read(path, &file);
-	medium_open(file.medium, &medium);
+	medium_file_open(file.medium, &baked);
 	int asked = transport >= 0;
 	if (!asked)
-		transport = medium.n_particles ? TRANSPORT_EXPLICIT : TRANSPORT_CONTINUOUS;
-	else if ((transport == TRANSPORT_EXPLICIT || transport == TRANSPORT_FAT_RAY) && !medium.n_particles)
+		transport = medium->kind == MEDIUM_PARTICLES ? TRANSPORT_EXPLICIT : TRANSPORT_CONTINUOUS;
+	else if ((transport == TRANSPORT_EXPLICIT || transport == TRANSPORT_FAT_RAY) && medium->kind != MEDIUM_PARTICLES)
 		die(file.medium, "has no particles, which explicit and fat-ray need; bake it from particles, or render it as grid or continuous");
 	if (attenuation == ATTENUATION_EXPONENTIAL && transport != TRANSPORT_FAT_RAY)
 		die("--attenuation", "exponential goes with --transport fat-ray");
-	if (spectral && medium.n_waves > IMAGE_WAVES)
-		die("--spectral", "the medium has %d wavelengths; an image has room for %d", medium.n_waves, IMAGE_WAVES);
+	if (spectral && medium->n_waves > IMAGE_WAVES)
+		die("--spectral", "the medium has %d wavelengths; an image has room for %d", medium->n_waves, IMAGE_WAVES);
 	const struct render_options options = { .transport = transport, .attenuation = attenuation, .branches = (int)branches,
 		.spectral = spectral, .seed = (uint32)seed };
-	setup_make(&setup, &file, &medium, &options);
+	setup_make(&setup, &file, medium, &options);
 	film_make(&film, &setup.scene);
 	if (verbose)
 		warn(file.medium, "%s, %s: %zu particles, %d classes, %d wavelengths, mean optical depth %.4g along the shortest axis",
 		     (const char *[]){ "explicit", "fat-ray", "grid", "continuous" }[transport],
-		     asked ? "as asked for" : medium.n_particles ? "the default for particles" : "the default without particles",
-		     medium.n_particles, medium.n_classes, medium.n_waves, medium_depth(&medium));
+		     asked ? "as asked for" : medium->kind == MEDIUM_PARTICLES ? "the default for particles" : "the default without particles",
+		     medium->n_particles, medium->n_classes, medium->n_waves, medium_depth(medium));
 
 	struct out out = out_open(output, 1);    /* before the work, not after */
 	struct cl *cl = backend ? cl_start(&setup, &film, (int)device, verbose) : NULL;
@@ -145,8 +147,8 @@ int main(int argc, char **argv)
 	if (!film_holds(&film))
 		die(path, "the light is too strong: a pixel's samples sum to more than 2^32; scale the lights down");
 	struct image image;
-	char *content = xtext("medium crc %08x", medium.crc), *history = tab_join(medium.history, content, file.history, NULL);
-	image_of(&image, &setup.scene, &film, &medium, from, to, samples, history, args.history);
+	char *content = xtext("medium crc %08x", baked.crc), *history = tab_join(medium->history, content, file.history, NULL);
+	image_of(&image, &setup.scene, &film, medium, from, to, samples, history, args.history);
 	image_write(&out, &image, part != NULL);
 	image_free(&image);
 	free(content);
@@ -155,7 +157,7 @@ int main(int argc, char **argv)
 		cl_free(cl);
 	film_free(&film);
 	setup_free(&setup);
-	medium_close(&medium);
+	medium_file_close(&baked);
 	scenefile_free(&file);
 	free(args.history);
 	return 0;

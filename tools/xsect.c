@@ -1,7 +1,8 @@
 /* xsect - cross sections and asymmetry parameter of spheres. */
 #include "base/die.h"
+#include "format/columns.h"
 #include "optics/select/method_selection.h"
-#include "toolkit/coeffs.h"
+#include "toolkit/spheres.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -33,11 +34,11 @@ struct dark {
 /* n sizes. Those whose coefficients were read, and those in a host that absorbs, are for Lorenz-Mie theory, one by one. */
 static void answers(struct method_selection *selection, int n, struct waves *w, struct answer *a)
 {
-	static struct sphere sphere[COEFFS_BATCH];
-	static double error[COEFFS_BATCH];
-	static struct efficiencies q[COEFFS_BATCH];
-	static enum method used[COEFFS_BATCH];
-	static int of[COEFFS_BATCH];
+	static struct sphere sphere[SPHERES_BATCH];
+	static double error[SPHERES_BATCH];
+	static struct efficiencies q[SPHERES_BATCH];
+	static enum method used[SPHERES_BATCH];
+	static int of[SPHERES_BATCH];
 	int many = 0, failed = 0;
 	for (int i = 0; i < n; i++) {
 		if (w[i].a || w[i].size.x_im > 0)
@@ -66,13 +67,9 @@ static void answers(struct method_selection *selection, int n, struct waves *w, 
 
 static int columns(int by_x, struct tab_col *cols)
 {
-	static const struct tab_col by_size[] = {
-		{ "c_ext", TAB_F64, "um^2" }, { "c_sca", TAB_F64, "um^2" }, { "c_abs", TAB_F64, "um^2" },
-		{ "g", TAB_F64, "1" }, { "method", TAB_I32, "1" }, { "error", TAB_F64, "1" },
-	}, by_parameter[] = {
-		{ "q_ext", TAB_F64, "1" }, { "q_sca", TAB_F64, "1" }, { "q_abs", TAB_F64, "1" },
-		{ "g", TAB_F64, "1" }, { "q_back", TAB_F64, "1" }, { "method", TAB_I32, "1" }, { "error", TAB_F64, "1" },
-	};
+	const struct tab_col by_size[] = { column_c_ext, column_c_sca, column_c_abs, column_g, column_method, column_error };
+	const struct tab_col by_parameter[] = { column_q_ext, column_q_sca, column_q_abs, column_g, column_q_back, column_method,
+		column_error };
 	memcpy(cols, by_x ? by_parameter : by_size, by_x ? sizeof by_parameter : sizeof by_size);
 	return by_x ? 7 : 6;
 }
@@ -92,24 +89,24 @@ static int values(int by_x, const struct size *size, const struct answer *a, dou
 	return n;
 }
 
-static void run(struct coeffs *in, struct method_selection *selection, const char *output, const char *command, struct worst worst[],
+static void run(struct spheres *in, struct method_selection *selection, const char *output, const char *command, struct worst worst[],
                 struct dark *dark)
 {
-	static struct waves w[COEFFS_BATCH];
-	static struct answer a[COEFFS_BATCH];
+	static struct waves w[SPHERES_BATCH];
+	static struct answer a[SPHERES_BATCH];
 	struct tab_col cols[TAB_COLS];
 	double row[TAB_COLS];
-	int by_x = coeffs_by_x(in), k = coeffs_columns(in, cols);
+	int by_x = spheres_by_x(in), k = spheres_key_columns(in, cols);
 	k += columns(by_x, cols + k);
-	int ncarried = coeffs_carried(in, k, cols, cols + k), n = coeffs_batch(in, w);
-	struct tab_out *out = tab_create(output, coeffs_history(in), command, k + ncarried, cols);
-	for (; n; n = coeffs_batch(in, w)) {
+	int ncarried = spheres_carried(in, k, cols, cols + k), n = spheres_batch(in, w);
+	struct tab_out *out = tab_create(output, spheres_history(in), command, k + ncarried, cols);
+	for (; n; n = spheres_batch(in, w)) {
 		answers(selection, n, w, a);
 		for (int i = 0; i < n; i++) {
 			struct worst *most = &worst[a[i].method];
-			int key = coeffs_key(in, &w[i].size, row), j = key;
+			int key = spheres_key(in, &w[i].size, row), j = key;
 			j += values(by_x, &w[i].size, &a[i], row + j);
-			coeffs_carry(in, &w[i], row + j);
+			spheres_carry(in, &w[i], row + j);
 			tab_put(out, row);
 			if (!most->n++ || !(a[i].error <= most->error)) {
 				most->size = w[i].size;
@@ -159,9 +156,9 @@ int main(int argc, char **argv)
 	if (tolerance >= 0 && method != METHOD_AUTO)
 		die("--tolerance", "is for --method auto");
 	sizes.clear_host = method != METHOD_AUTO && method != METHOD_MIE;
-	struct coeffs *in = coeffs_open(&sizes, args.n ? args.operand[0] : NULL);
-	if (coeffs_read(in) && method != METHOD_AUTO && method != METHOD_MIE)
-		die("--method", "%s has no use for the coefficients in %s", method_table[method].name, coeffs_read(in));
+	struct spheres *in = spheres_open(&sizes, args.n ? args.operand[0] : NULL);
+	if (spheres_coeffs(in) && method != METHOD_AUTO && method != METHOD_MIE)
+		die("--method", "%s has no use for the coefficients in %s", method_table[method].name, spheres_coeffs(in));
 	struct method_selection *selection = method_selection_new(method, tolerance < 0 ? TOLERANCE : tolerance);
 	if (!selection)
 		die(NULL, "out of memory");
@@ -175,6 +172,6 @@ int main(int argc, char **argv)
 		     size_name(&dark.size, at), dark.ext, 2 * dark.size.x_im);
 	}
 	method_selection_free(selection);
-	coeffs_close(in);
+	spheres_close(in);
 	return 0;
 }

@@ -13,12 +13,12 @@ enum { CPU_SCALAR, CPU_V2, CPU_V3, CPU_V4, CPU_LEVELS };    /* plain C; x86-64-v
 /* cpu_name - "scalar", "v2", "v3" or "v4". */
 const char *cpu_name(int level);
 
-/* cpu_has - whether the processor has a level and there is a build for it. MOTES_CPU_MAX in the environment, a level's name, hides
- * those above, so that any machine can stand for a lesser one. Dies where that is no level's name. */
+/* cpu_has - whether the processor has a level and there is a build for it. MOTES_CPU_MAX in the environment, a level's name,
+ * hides those above, so that any machine can stand for a lesser one. Dies where that is no level's name. */
 int cpu_has(int level);
 
-/* cpu_level - the best there is, or what MOTES_CPU in the environment names: scalar, v2, v3 or v4. Dies where that is none of them, or
- * is not there: a tool asks once before anything is read, so that nothing in lib/ dies of it later. */
+/* cpu_level - the best there is, or what MOTES_CPU in the environment names: scalar, v2, v3 or v4. Dies where that is none of
+ * them, or is not there: a tool asks once before anything is read, so that nothing in lib/ dies of it later. */
 int cpu_level(void);
 
 #endif

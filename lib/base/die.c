@@ -57,14 +57,31 @@ void *xalloc(size_t n, size_t size)
 	return p;
 }
 
-char *xtext(const char *fmt, ...)
+static char *printed(const char *fmt, va_list args)
 {
 	char *text;
-	va_list args;
-	va_start(args, fmt);
-	int n = vasprintf(&text, fmt, args);
-	va_end(args);
-	if (n < 0)
+	if (vasprintf(&text, fmt, args) < 0)
 		die(NULL, "out of memory");
 	return text;
+}
+
+char *xtext(const char *fmt, ...)
+{
+	va_list args;
+	va_start(args, fmt);
+	char *text = printed(fmt, args);
+	va_end(args);
+	return text;
+}
+
+void xappend(char **text, const char *fmt, ...)
+{
+	va_list args;
+	va_start(args, fmt);
+	char *more = printed(fmt, args);
+	va_end(args);
+	size_t before = strlen(*text), n = strlen(more) + 1;
+	*text = xgrow(*text, before + n, 1);
+	memcpy(*text + before, more, n);
+	free(more);
 }

@@ -22,4 +22,7 @@ void *xgrow(void *p, size_t n, size_t size);
 /* xtext - a printf into memory of its own. */
 char *xtext(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
 
+/* xappend - the same at the end of such a text, which may move. */
+void xappend(char **text, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
+
 #endif

@@ -1,6 +1,7 @@
 #include "base/out.h"
 
 #include "base/die.h"
+#include "base/standard.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -159,5 +160,5 @@ void out_close(struct out *out)
 {
 	const char *wrong = out_finish(out);
 	if (wrong)
-		die(!strcmp(out->path, "-") ? "standard output" : out->path, "%s", wrong);
+		die(standard_output(out->path), "%s", wrong);
 }

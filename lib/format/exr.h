@@ -3,13 +3,10 @@
 #define FORMAT_EXR_H
 
 #include "base/out.h"
+#include "format/limits.h"
 
 #include <stddef.h>
 #include <stdint.h>
-
-#define EXR_CHANNELS 1024
-#define EXR_SIDE_MAX 32768
-#define EXR_NAME 64
 
 struct exr_channel {
 	char name[EXR_NAME];
@@ -36,8 +33,8 @@ struct exr {
  * compression. Bit errors go unseen where the format has no checksum: in uncompressed pixels and in free text. */
 void exr_read(const char *path, struct exr *image);
 
-/* exr_write - write scan lines with ZIP compression to an output opened as binary, and close it; bytes depend on content alone: the
- * order of the channels does not matter either. Dies. */
+/* exr_write - write scan lines with ZIP compression to an output opened as binary, and close it; bytes depend on content alone:
+ * the order of the channels does not matter either. Dies. */
 void exr_write(struct out *out, const struct exr *image);
 
 /* exr_find - the channel of that name, NULL if there is none. */

@@ -1,6 +1,8 @@
 #include "format/npy.h"
 
 #include "base/die.h"
+#include "base/standard.h"
+#include "format/limits.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -8,8 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HEADER_MAX 65536
-#define VOXELS_MAX ((size_t)1 << 36)
 #define CHUNK 65536              /* voxels read at a time: memory follows the bytes that are there, not what the header claims */
 
 struct source {
@@ -62,7 +62,7 @@ static void shape(const struct source *s, const char *text, size_t n[3])
 		die(s->name, "has %d dimensions; a density grid has 3, [z][y][x]", dims);
 	if (!n[0] || !n[1] || !n[2])
 		die(s->name, "is an empty array");
-	if (n[0] > VOXELS_MAX || n[1] > VOXELS_MAX / n[0] || n[2] > VOXELS_MAX / n[0] / n[1])
+	if (n[0] > NPY_VOXELS_MAX || n[1] > NPY_VOXELS_MAX / n[0] || n[2] > NPY_VOXELS_MAX / n[0] / n[1])
 		die(s->name, "has too many voxels");
 }
 
@@ -80,7 +80,7 @@ static size_t open_array(const struct source *s, size_t n[3])
 		take(s, lead + 10, 2);
 		length |= (size_t)lead[10] << 16 | (size_t)lead[11] << 24;
 	}
-	if (length > HEADER_MAX)
+	if (length > NPY_HEADER_MAX)
 		die(s->name, "damaged array: its header is too long");
 	char *header = xalloc(length + 1, 1);
 	take(s, header, length);
@@ -92,8 +92,9 @@ static size_t open_array(const struct source *s, size_t n[3])
 	for (size_t i = 0; i < sizeof types / sizeof *types; i++)
 		if (!strncmp(descr, types[i].descr, strlen(types[i].descr)))
 			bytes = types[i].bytes;
+	size_t type = strcspn(descr, ",}\n");
 	if (!bytes)
-		die(s->name, "has type %.*s; a density grid is |u1, <f4 or <f8", (int)strcspn(descr, ",}\n") > 32 ? 32 : (int)strcspn(descr, ",}\n"), descr);
+		die(s->name, "has type %.*s; a density grid is |u1, <f4 or <f8", type > 32 ? 32 : (int)type, descr);
 	if (strncmp(entry(s, header, "fortran_order"), "False", 5))
 		die(s->name, "is in Fortran order; a density grid is in C order");
 	shape(s, entry(s, header, "shape"), n);
@@ -120,8 +121,7 @@ static float value(const unsigned char *p, size_t bytes)
 
 struct npy_grid npy_density(const char *path)
 {
-	int piped = !strcmp(path, "-");
-	struct source s = { piped ? stdin : fopen(path, "rb"), piped ? "standard input" : path };
+	struct source s = { standard(path) ? stdin : fopen(path, "rb"), standard_input(path) };
 	size_t n[3] = { 0 }, have = 0, room = 0;
 	if (!s.f)
 		die(path, "cannot open:");
@@ -145,7 +145,7 @@ struct npy_grid npy_density(const char *path)
 	if (getc(s.f) != EOF)
 		die(s.name, "has bytes after the array");
 	free(chunk);
-	if (!piped)
+	if (s.f != stdin)
 		fclose(s.f);
 	return g;
 }

@@ -2,12 +2,12 @@
 
 #include "base/die.h"
 #include "base/out.h"
+#include "base/standard.h"
 
 #include <math.h>
 #include <png.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* IEC 61966-2-1. */
 static double srgb(double v)
@@ -34,7 +34,7 @@ static void silent(png_structp png, const char *what)
 
 void png_write_srgb(const char *path, int width, int height, const float *rgb, int bits)
 {
-	char *name = xtext("%s", path && strcmp(path, "-") ? path : "standard output");
+	char *name = xtext("%s", standard_output(path));
 	struct out out = out_open(path, 1);
 	png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, name, failed, silent);
 	png_infop info = png ? png_create_info_struct(png) : NULL;

@@ -5,11 +5,10 @@
 #ifndef FORMAT_TAB_H
 #define FORMAT_TAB_H
 
+#include "format/limits.h"
+
 #include <stddef.h>
 #include <stdint.h>
-
-#define TAB_COLS 64
-#define TAB_NAME 32
 
 enum tab_type { TAB_I32, TAB_F32, TAB_F64 };
 
@@ -33,11 +32,11 @@ const char *tab_history(const struct tab *t);
 int tab_ncols(const struct tab *t);
 const struct tab_col *tab_cols(const struct tab *t);
 
-/* tab_find - index of a column, -1 if there is none; dies when its unit is another. */
-int tab_find(const struct tab *t, const char *name, const char *unit);
+/* tab_find - index of the column of that name, -1 if there is none; dies when its unit is another. */
+int tab_find(const struct tab *t, const struct tab_col *col);
 
 /* tab_need - the same, dies when there is none. */
-int tab_need(const struct tab *t, const char *name, const char *unit);
+int tab_need(const struct tab *t, const struct tab_col *col);
 
 /* tab_next - the next row into row[tab_ncols]; 0 at the end of a table that is whole. */
 int tab_next(struct tab *t, double *row);

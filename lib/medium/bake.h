@@ -1,20 +1,20 @@
-/* bake - what a medium is filled with: a density and a size distribution, or particles. The classes must be set, and the shape where
- * it is given. All die on bad input, with the table and its row. */
+/* bake - what a medium is filled with: a density and a size distribution, or particles. The classes must be set, and the shape
+ * where it is given. All die on bad input, with the table and its row. */
 #ifndef MEDIUM_BAKE_H
 #define MEDIUM_BAKE_H
 
 #include "medium/medium.h"
 
-/* fill_density - the relative density of a .npy grid (path NULL: 1 everywhere) and its integral over the medium in m^3.
+/* bake_density - the relative density of a .npy grid (path NULL: 1 everywhere) and its integral over the medium in m^3.
  * longest: average it to so many voxels along the longest side; 0: as it is. The shape must be given. */
-void fill_density(const char *path, int longest, struct medium *m);
+void bake_density(const char *path, int longest, struct medium *m);
 
-/* fill_psd - expected counts by class from a table of radius (um) and weight (sum 1), at a concentration (m^-3) where the density
- * is 1; after fill_density. Returns the table's history. */
-char *fill_psd(const char *path, double concentration, struct medium *m);
+/* bake_psd - expected counts by class from a table of radius (um) and weight (sum 1), at a concentration (m^-3) where the density
+ * is 1; after bake_density. Returns the table's history. */
+char *bake_psd(const char *path, double concentration, struct medium *m);
 
-/* fill_particles - particles from a table of x, y, z (m) and radius (um), path NULL: standard input. bounded: the shape is given, and
- * none may lie outside; else it becomes the bounding box about the origin. Returns the table's history. */
-char *fill_particles(const char *path, int bounded, struct medium *m);
+/* bake_particles - particles from a table of x, y, z (m) and radius (um), path NULL: standard input. bounded: the shape is
+ * given, and none may lie outside; else it becomes the bounding box about the origin. Returns the table's history. */
+char *bake_particles(const char *path, int bounded, struct medium *m);
 
 #endif

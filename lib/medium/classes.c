@@ -2,7 +2,8 @@
 
 #include "base/ascending.h"
 #include "base/die.h"
-#include "format/tab.h"
+#include "format/columns.h"
+#include "format/limits.h"
 #include "optics/phase/phase.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@
 #include <string.h>
 
 #define KEY 1e-9               /* keys match within this, relative */
-#define INTERVAL (M_PI / 180)  /* longest interval between nodes: see phase_draw in the kernels */
+#define INTERVAL (M_PI / 180)  /* longest interval between nodes: sin is a cubic over it to the kernels (render/kern/phase.h) */
 
 static int same(double a, double b)
 {
@@ -45,11 +46,11 @@ static void positive(const struct tab *t, const char *name, double v)
 		die(tab_path(t), "row %llu: %s %g is not positive", (unsigned long long)tab_row(t), name, v);
 }
 
-char *optics_cross_sections(const char *path, struct medium *m)
+char *classes_cross_sections(const char *path, struct medium *m)
 {
 	struct tab *t = tab_open(path);
-	int wavelength = tab_need(t, "wavelength", "um"), radius = tab_need(t, "radius", "um");
-	int c_ext = tab_need(t, "c_ext", "um^2"), c_sca = tab_need(t, "c_sca", "um^2");
+	int wavelength = tab_need(t, &column_wavelength), radius = tab_need(t, &column_radius);
+	int c_ext = tab_need(t, &column_c_ext), c_sca = tab_need(t, &column_c_sca);
 	double row[TAB_COLS], (*rows)[4] = NULL;
 	size_t n = 0;
 	while (tab_next(t, row)) {
@@ -90,7 +91,7 @@ char *optics_cross_sections(const char *path, struct medium *m)
 	return history;
 }
 
-int optics_class(const struct medium *m, double radius)
+static int nearest(const struct medium *m, double radius)
 {
 	int best = 0;
 	double gap[2] = { 1e-6, 1e-6 }, d;
@@ -104,6 +105,15 @@ int optics_class(const struct medium *m, double radius)
 	}
 	d = log(radius / m->radius[best]);
 	return fabs(d) <= (d < 0 ? gap[0] : gap[1]) * (1 + 1e-9) ? best : -1;
+}
+
+int classes_find(const struct medium *m, const struct tab *t, double radius)
+{
+	int class = radius > 0 ? nearest(m, radius) : -1;
+	if (class < 0)
+		die(tab_path(t), "row %llu: radius %g um fits none of the %d classes of --xsect", (unsigned long long)tab_row(t), radius,
+		    m->n_classes);
+	return class;
 }
 
 /* -------------------------------------------------------------------- phase functions */
@@ -204,8 +214,8 @@ static void curve_check(const struct tab *t, struct curve *c, double wavelength,
 /* Read the curves: [class][wave], or [1][wave] for a table without radius. */
 static struct curve *read_curves(struct tab *t, const struct medium *m, int *shared)
 {
-	int wavelength = tab_need(t, "wavelength", "um"), radius = tab_find(t, "radius", "um");
-	int theta = tab_need(t, "theta", "deg"), p = tab_need(t, "p", "sr^-1");
+	int wavelength = tab_need(t, &column_wavelength), radius = tab_find(t, &column_radius);
+	int theta = tab_need(t, &column_theta), p = tab_need(t, &column_p);
 	*shared = radius < 0;
 	int classes = *shared ? 1 : m->n_classes;
 	struct curve *curves = xalloc((size_t)classes * (size_t)m->n_waves, sizeof *curves), *now = NULL;
@@ -227,7 +237,7 @@ static struct curve *read_curves(struct tab *t, const struct medium *m, int *sha
 			die(tab_path(t), "row %llu: theta %g is not ascending in [0, 180] deg", number, row[theta]);
 		if (!(row[p] >= 0) || !isfinite(row[p]))
 			die(tab_path(t), "row %llu: p %g is not a finite number of at least 0", number, row[p]);
-		if (now->n == 1 << 24)
+		if (now->n == PHASE_ANGLES_MAX)
 			die(tab_path(t), "row %llu: more than 2^24 angles", number);
 		curve_add(now, angle, row[p]);
 	}
@@ -266,7 +276,7 @@ static void append_mixture(struct medium *m, const struct curve *curves)
 	free(grid.p);
 }
 
-char *optics_phase(const char *path, struct medium *m)
+char *classes_phase_functions(const char *path, struct medium *m)
 {
 	struct tab *t = tab_open(path);
 	int shared;

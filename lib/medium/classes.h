@@ -2,19 +2,20 @@
 #ifndef MEDIUM_CLASSES_H
 #define MEDIUM_CLASSES_H
 
+#include "format/tab.h"
 #include "medium/medium.h"
 
-/* optics_cross_sections - read wavelength, radius, c_ext, c_sca; sets the classes and wavelengths of the medium.
+/* classes_cross_sections - read wavelength, radius, c_ext, c_sca; sets the classes and wavelengths of the medium.
  * Refuses c_ext <= 0 and c_sca > c_ext (1 + 1e-9). Dies. Returns the table's history. */
-char *optics_cross_sections(const char *path, struct medium *m);
+char *classes_cross_sections(const char *path, struct medium *m);
 
-/* optics_phase - read wavelength, [radius,] theta, p for every class and wavelength (without radius: one for all classes), normalise
- * each on its own grid, and build the common grids, the CDFs and the mixture by count x c_sca. count must be set. Refuses a phase
- * function off by more than 1 %. Dies. Returns the table's history. */
-char *optics_phase(const char *path, struct medium *m);
+/* classes_phase_functions - read wavelength, [radius,] theta, p for every class and wavelength (without radius: one for all
+ * classes), normalise each on its own grid, and build the common grids, the CDFs and the mixture by count x c_sca. count must
+ * be set. Refuses a phase function off by more than 1 %. Dies. Returns the table's history. */
+char *classes_phase_functions(const char *path, struct medium *m);
 
-/* optics_class - the class that a particle of this radius (um) belongs to: nearest in log radius and within half the gap to the
- * neighbouring class (outermost: the same gap outwards; a single class: 1e-6); -1 if it fits none. */
-int optics_class(const struct medium *m, double radius);
+/* classes_find - the class that a particle of this radius (um) belongs to: nearest in log radius and within half the gap to the
+ * neighbouring class (outermost: the same gap outwards; a single class: 1e-6). Dies, with the row of t, if it fits none. */
+int classes_find(const struct medium *m, const struct tab *t, double radius);
 
 #endif

@@ -1,14 +1,17 @@
-/* medium - a baked medium: optics by class and wavelength, phase functions, and the particles in their grid; medium(5). */
+/* medium - a baked medium: optics by class and wavelength, phase functions, and the particles in their grid. Its arrays are those
+ * of medium(5), of which medium_file has the readers and writers. */
 #ifndef MEDIUM_MEDIUM_H
 #define MEDIUM_MEDIUM_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-#define MEDIUM_CLASSES 4096
-#define MEDIUM_WAVES 1024
+/* What the matter of a medium is: single particles, which cubes also count; or a field of relative density, of which the classes
+ * have their expected numbers. */
+enum medium_kind { MEDIUM_PARTICLES, MEDIUM_DENSITY };
 
 struct medium {
+	enum medium_kind kind;
 	char *history;                  /* cmd lines as in tab(5) */
 	int round;                      /* a sphere of radius half[0], else a box; centred on the origin */
 	double half[3];                 /* m */
@@ -22,7 +25,7 @@ struct medium {
 	float *theta;                   /* [node] rad */
 	float *p;                       /* [node][wave] sr^-1, normalised */
 	uint32_t *cdf;                  /* [node][wave], see phase_cdf */
-	size_t n_particles;             /* 0: a medium without particles; the rest is then empty */
+	size_t n_particles;             /* of MEDIUM_PARTICLES, as is all to voxel_count */
 	float *particle;                /* [particle][4] x y z m, the bits of an int32 class; in the order of the cells */
 	int32_t cells[3];               /* the grid over the centres */
 	float low[3], cell[3];          /* m */
@@ -33,11 +36,8 @@ struct medium {
 	size_t n_voxel_count;
 	uint32_t *voxel_count;          /* [level][voxel][class], finest level first; see particle_counts.h */
 	size_t n_density;
-	float *density;                 /* [z][y][x] relative density of a medium without particles, see density.h */
+	float *density;                 /* [z][y][x] of MEDIUM_DENSITY: relative density, see density.h */
 	double matter;                  /* m^3, integral of the density over the medium */
-	uint32_t crc;                   /* of an open file: what a history says of its content */
-	void *map;
-	size_t map_size;
 };
 
 /* medium_volume - in m^3. */
@@ -45,14 +45,5 @@ double medium_volume(const struct medium *m);
 
 /* medium_depth - mean optical depth along the shortest axis at the first wavelength. */
 double medium_depth(const struct medium *m);
-
-/* medium_write - write a file (not standard output: it is mapped when read). Dies. */
-void medium_write(const char *path, const struct medium *m);
-
-/* medium_open - verify a file by one sequential read, map it and check its indices, so that the kernels can rely on
- * them, and the ranges of its values. Dies. */
-void medium_open(const char *path, struct medium *m);
-
-void medium_close(struct medium *m);
 
 #endif

@@ -7,7 +7,7 @@
 
 #define DEFAULT_MOST 256    /* cubes along the longest side, unless more are asked for */
 
-size_t voxels_level(const int32_t *n, int l, int32_t *size)
+size_t particle_counts_level(const int32_t *n, int l, int32_t *size)
 {
 	size_t before = 0;
 	memcpy(size, n, 3 * sizeof *size);
@@ -19,13 +19,13 @@ size_t voxels_level(const int32_t *n, int l, int32_t *size)
 	return before;
 }
 
-size_t voxels_size(const int32_t *n)
+size_t particle_counts_size(const int32_t *n)
 {
 	int32_t size[3];
 	int l = 0;
 	size_t before;
 	do
-		before = voxels_level(n, l++, size);
+		before = particle_counts_level(n, l++, size);
 	while (size[0] > 1 || size[1] > 1 || size[2] > 1);
 	return before + 1;
 }
@@ -42,7 +42,8 @@ static size_t cube_of(const struct medium *m, const float *q)
 static void condense(struct medium *m, int l)
 {
 	int32_t fine[3], coarse[3];
-	size_t classes = (size_t)m->n_classes, from = voxels_level(m->voxels, l, fine), to = voxels_level(m->voxels, l + 1, coarse);
+	size_t classes = (size_t)m->n_classes;
+	size_t from = particle_counts_level(m->voxels, l, fine), to = particle_counts_level(m->voxels, l + 1, coarse);
 	for (int32_t z = 0; z < fine[2]; z++)
 		for (int32_t y = 0; y < fine[1]; y++)
 			for (int32_t x = 0; x < fine[0]; x++) {
@@ -53,7 +54,7 @@ static void condense(struct medium *m, int l)
 			}
 }
 
-void voxels_count(struct medium *m, int longest)
+void particle_counts_build(struct medium *m, int longest)
 {
 	double side = 2 * fmax(m->half[0], fmax(m->half[1], m->half[2])), box = 8 * m->half[0] * m->half[1] * m->half[2];
 	if (!longest)
@@ -63,7 +64,7 @@ void voxels_count(struct medium *m, int longest)
 		m->voxels[a] = (int32_t)fmax(1, ceil(2 * m->half[a] / m->voxel * (1 - 1e-9)));
 	if ((double)m->voxels[0] * m->voxels[1] * m->voxels[2] * m->n_classes > INT32_MAX)
 		die("--voxels", "%d x %d x %d cubes of %d classes are too many", m->voxels[0], m->voxels[1], m->voxels[2], m->n_classes);
-	m->n_voxel_count = voxels_size(m->voxels) * (size_t)m->n_classes;
+	m->n_voxel_count = particle_counts_size(m->voxels) * (size_t)m->n_classes;
 	m->voxel_count = xalloc(m->n_voxel_count, sizeof *m->voxel_count);
 	for (size_t i = 0; i < m->n_particles; i++) {
 		int32_t class;
@@ -71,6 +72,6 @@ void voxels_count(struct medium *m, int longest)
 		m->voxel_count[cube_of(m, m->particle + 4 * i) * (size_t)m->n_classes + (size_t)class]++;
 	}
 	int32_t size[3];
-	for (int l = 0; voxels_level(m->voxels, l, size), size[0] > 1 || size[1] > 1 || size[2] > 1; l++)
+	for (int l = 0; particle_counts_level(m->voxels, l, size), size[0] > 1 || size[1] > 1 || size[2] > 1; l++)
 		condense(m, l);
 }

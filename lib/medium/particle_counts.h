@@ -1,19 +1,19 @@
-/* particle_counts - a pyramid of cubes that count the particles of each class: the optics of any of them follow exactly from its counts. */
+/* particle_counts - a pyramid of cubes that count the particles of each class: the optics of any of them follow exactly from
+ * its counts. */
 #ifndef MEDIUM_PARTICLE_COUNTS_H
 #define MEDIUM_PARTICLE_COUNTS_H
 
 #include "medium/medium.h"
 
-#define VOXELS_SIDE 4096
+/* particle_counts_level - size of level l over a finest level n[3]: each level halves the one before, rounding up, down to one
+ * cube. Returns the number of cubes before it in the pyramid. */
+size_t particle_counts_level(const int32_t *n, int l, int32_t *size);
 
-/* voxels_level - size of level l over a finest level n[3]: each level halves the one before, rounding up, down to one cube.
- * Returns the number of cubes before it in the pyramid. */
-size_t voxels_level(const int32_t *n, int l, int32_t *size);
+/* particle_counts_size - cubes of all levels. */
+size_t particle_counts_size(const int32_t *n);
 
-/* voxels_size - cubes of all levels. */
-size_t voxels_size(const int32_t *n);
-
-/* voxels_count - count the medium's particles; longest: cubes along its longest side, 0 to have about eight particles in one. */
-void voxels_count(struct medium *m, int longest);
+/* particle_counts_build - count the medium's particles; longest: cubes along its longest side, 0 to have about eight particles
+ * in one. */
+void particle_counts_build(struct medium *m, int longest);
 
 #endif

@@ -1,6 +1,7 @@
 #include "medium/particle_grid.h"
 
 #include "base/die.h"
+#include "format/limits.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -53,8 +54,8 @@ static void place(struct medium *m)
 		for (int a = 0; a < 3; a++) {
 			double n = fmax(1, ceil((high[a] - low[a]) / side));
 			total *= n;
-			m->cells[a] = (int32_t)fmin(n, GRID_SIDE);
-			total = n > GRID_SIDE ? INFINITY : total;
+			m->cells[a] = (int32_t)fmin(n, MEDIUM_CELLS_SIDE);
+			total = n > MEDIUM_CELLS_SIDE ? INFINITY : total;
 		}
 	}
 	for (int a = 0; a < 3; a++) {
@@ -74,7 +75,7 @@ static size_t home(const struct medium *m, const float *q)
 	    + (size_t)index_of(m, 0, q[0]);
 }
 
-void grid_build(struct medium *m)
+void particle_grid_build(struct medium *m)
 {
 	place(m);
 	size_t n_cells = (size_t)m->cells[0] * (size_t)m->cells[1] * (size_t)m->cells[2];

@@ -4,9 +4,7 @@
 
 #include "medium/medium.h"
 
-#define GRID_SIDE (1 << 24)    /* cells along an axis: floats count them exactly */
-
-/* grid_build - choose the cells so that a ray costs least, and sort the particles into their order. */
-void grid_build(struct medium *m);
+/* particle_grid_build - choose the cells so that a ray costs least, and sort the particles into their order. */
+void particle_grid_build(struct medium *m);
 
 #endif

@@ -77,7 +77,7 @@ static void distances(const struct bricks *b)
 
 void bricks_make(struct bricks *b, const struct medium *m)
 {
-	int counted = m->n_particles > 0;
+	int counted = m->kind == MEDIUM_PARTICLES;
 	size_t one = counted ? (size_t)(BRICK_CELLS * m->n_waves) : BRICK_CORNERS, kept = 0;
 	fill_fn *fill = counted ? fill_cubes : fill_density;
 	float *scratch = xalloc(one, sizeof *scratch);

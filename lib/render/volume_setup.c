@@ -17,7 +17,7 @@ static void optics(struct setup *u, const struct medium *m)
 	float *extinction = setup_own(u, xalloc(waves, sizeof(float))), *disc_radius2 = setup_own(u, xalloc(classes * waves, sizeof(float)));
 	float *albedo = setup_own(u, xalloc((classes + 1) * waves, sizeof(float)));
 	/* of the whole medium; on a density grid, where the density is 1 */
-	double volume = v->transport == TRANSPORT_GRID && m->n_density ? m->matter : medium_volume(m);
+	double volume = v->transport == TRANSPORT_GRID && m->kind == MEDIUM_DENSITY ? m->matter : medium_volume(m);
 	for (size_t w = 0; w < waves; w++) {
 		double ext = 0, sca = 0;
 		for (size_t k = 0; k < classes; k++) {
@@ -138,7 +138,7 @@ static void voxels(struct setup *u, const struct medium *m)
 void volume_setup(struct setup *u, const struct scenefile *f, const struct medium *m, int suns)
 {
 	struct volume *v = &u->scene.volume;
-	v->counted = m->n_particles > 0;
+	v->counted = m->kind == MEDIUM_PARTICLES;
 	v->n_classes = m->n_classes;
 	/* particles scatter by their class, everything else as the mixture */
 	v->only_class = v->transport == TRANSPORT_CONTINUOUS || !v->counted ? m->n_classes : m->n_classes == 1 ? 0 : -1;

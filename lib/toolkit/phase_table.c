@@ -1,9 +1,11 @@
 #include "toolkit/phase_table.h"
 
+#include "toolkit/angle_refinement.h"
 #include "toolkit/ensemble_average.h"
 
 #include "base/ascending.h"
 #include "base/die.h"
+#include "format/columns.h"
 #include "optics/phase/angle_grid.h"
 
 #include <math.h>
@@ -13,8 +15,9 @@
 #define BATCH_WAVES 64            /* read together, at least; whole sizes */
 #define BATCH_TERMS 1000000       /* fewer where the coefficients read are many */
 #define CHUNK_ANGLES 500000       /* computed together, at most, but for one particle's */
-#define CHUNK_X 20000             /* adapted together: sum of size parameters, at most, but for one particle's */
+#define CHUNK_X 20000             /* refined together: sum of size parameters, at most, but for one particle's */
 #define BLOCK 4096                /* angles of a row of waves, handed on together */
+#define OWN (5 + PHASE_ELEMENTS)  /* columns: theta, amplitudes, elements */
 
 struct batch {
 	struct waves *w;
@@ -24,9 +27,8 @@ struct batch {
 
 struct job {
 	const struct phase_options *o;
-	struct coeffs *in;
-	phase_model *model;
-	const void *context;
+	struct spheres *in;
+	const struct phase_model *model;
 	struct tab_out *out;
 	int n;                    /* angles for all, 0: a grid for each size */
 	double *theta;
@@ -51,31 +53,31 @@ static void gather(struct job *j, struct batch *b, struct waves *next, int *more
 		if (b->n - 1 > group && x > b->x_grid[group])
 			b->x_grid[group] = x;
 		terms += (size_t)next->n;
-		*more = coeffs_next(j->in, next);
+		*more = spheres_next(j->in, next);
 	}
 	for (size_t i = 1; i < b->n; i++)
 		if (!b->w[i].size.first)
 			b->x_grid[i] = b->x_grid[i - 1];
 }
 
-static void put_rows(struct job *j, const struct waves *w, int n, const double *theta, const struct phase_result *r)
+static void put_rows(struct job *j, const struct waves *w, int n, const double *theta, double norm, const double complex *s1,
+                     const double complex *s2)
 {
 	double row[TAB_COLS];
-	int k = coeffs_key(j->in, &w->size, row);
-	coeffs_carry(j->in, w, row + k + 6);
+	int k = spheres_key(j->in, &w->size, row);
+	spheres_carry(j->in, w, row + k + OWN);
 	for (int i = 0; i < n; i++) {
-		double re1 = creal(r->s1[i]), im1 = cimag(r->s1[i]), re2 = creal(r->s2[i]), im2 = cimag(r->s2[i]);
 		row[k] = theta[i];
-		row[k + 1] = re1;
-		row[k + 2] = im1;
-		row[k + 3] = re2;
-		row[k + 4] = im2;
-		row[k + 5] = (re1 * re1 + im1 * im1 + re2 * re2 + im2 * im2) / (2 * r->norm);
+		row[k + 1] = creal(s1[i]);
+		row[k + 2] = cimag(s1[i]);
+		row[k + 3] = creal(s2[i]);
+		row[k + 4] = cimag(s2[i]);
+		phase_model_elements(norm, 1, &s1[i], &s2[i], 1, row + k + 5);
 		tab_put(j->out, row);
 	}
 }
 
-static void tell(const struct job *j, const struct size *size, const struct phase_result *r)
+static void tell(const struct job *j, const struct size *size, const struct phase_sphere *r)
 {
 	char at[SIZE_NAME];
 	if (j->o->verbose && r->method)
@@ -91,8 +93,8 @@ static int count(const struct job *j, double x)
 static void chunk(struct job *j, struct waves *w, const double *x_grid, size_t n, size_t angles)
 {
 	double *theta = xalloc(angles, sizeof *theta);
-	double complex *s = xalloc(2 * angles, sizeof *s);
-	struct phase_result *r = xalloc(n, sizeof *r);
+	double complex *s1 = xalloc(2 * angles, sizeof *s1), *s2 = s1 + angles;
+	struct phase_sphere *known = xalloc(n, sizeof *known);
 	size_t *at = xalloc(n + 1, sizeof *at);
 	int failed = 0;
 	for (size_t i = 0; i < n; i++)
@@ -105,21 +107,18 @@ static void chunk(struct job *j, struct waves *w, const double *x_grid, size_t n
 			memcpy(t, j->theta, (size_t)na * sizeof *t);
 		else
 			angle_grid(x_grid[i], t);
-		r[i].s1 = s + at[i];
-		r[i].s2 = s + angles + at[i];
-		failed |= j->model(j->context, &w[i], na, t, &r[i]) != 0;
-		waves_drop(&w[i]);    /* the coefficients of a whole chunk can be too many */
+		failed |= phase_model_once(j->model, &w[i], na, t, s1 + at[i], s2 + at[i], &known[i]) != 0;
 	}
 	if (failed)
 		die(NULL, "out of memory");
 	for (size_t i = 0; i < n; i++) {
-		put_rows(j, &w[i], (int)(at[i + 1] - at[i]), theta + at[i], &r[i]);
-		tell(j, &w[i].size, &r[i]);
+		put_rows(j, &w[i], (int)(at[i + 1] - at[i]), theta + at[i], known[i].norm, s1 + at[i], s2 + at[i]);
+		tell(j, &w[i].size, &known[i]);
 		waves_free(&w[i]);
 	}
 	free(theta);
-	free(s);
-	free(r);
+	free(s1);
+	free(known);
 	free(at);
 }
 
@@ -134,25 +133,23 @@ static void compute(struct job *j, const struct batch *b)
 }
 
 /* The rows of a size whose angles were found: amplitudes again, in blocks. */
-static void put_adapted(struct job *j, const struct adapted *a)
+static void put_refined(struct job *j, const struct angle_refinement *a)
 {
-	const struct phase_profile *profile = j->o->profile;
-	double complex *s = xalloc(2 * BLOCK, sizeof *s);
+	double complex *s1 = xalloc(2 * BLOCK, sizeof *s1), *s2 = s1 + BLOCK;
 	for (size_t i = 0; i < a->nwaves; i++)
 		for (long from = 0; from < a->n; from += BLOCK) {
 			int count = a->n - from < BLOCK ? (int)(a->n - from) : BLOCK;
-			if (profile->at(a->state[i], count, a->theta + from, s, s + BLOCK))
+			if (j->model->at(a->sphere[i], count, a->theta + from, s1, s2))
 				die(NULL, "out of memory");
-			struct phase_result r = { .s1 = s, .s2 = s + BLOCK, .norm = a->state[i]->norm, .q_sca = a->state[i]->q_sca };
-			put_rows(j, &a->w[i], count, a->theta + from, &r);
+			put_rows(j, &a->w[i], count, a->theta + from, a->sphere[i]->norm, s1, s2);
 		}
-	free(s);
+	free(s1);
 }
 
 /* A batch of whole sizes, each on angles of its own; in parallel where there are several. */
-static void compute_adapted(struct job *j, const struct batch *b)
+static void compute_refined(struct job *j, const struct batch *b)
 {
-	struct adapted *a = xalloc(b->n, sizeof *a);
+	struct angle_refinement *a = xalloc(b->n, sizeof *a);
 	for (size_t from = 0, to; from < b->n; from = to) {
 		size_t n = 0;
 		double x = 0;
@@ -161,19 +158,19 @@ static void compute_adapted(struct job *j, const struct batch *b)
 			if (b->w[to].size.first || to == from) {
 				if (n && x > CHUNK_X)
 					break;
-				a[n++] = (struct adapted){ .w = &b->w[to] };
+				a[n++] = (struct angle_refinement){ .w = &b->w[to] };
 			}
 			a[n - 1].nwaves++;
 			x += b->w[to].size.x;
 		}
 #pragma omp parallel for schedule(dynamic) reduction(|:failed) if (n > 1)
 		for (size_t i = 0; i < n; i++)
-			failed |= adapt(j->o->profile, j->context, j->o->tolerance, &a[i]) != 0;
+			failed |= angle_refinement_find(j->model, j->o->tolerance, &a[i]) != 0;
 		if (failed)
 			die(NULL, "out of memory");
 		for (size_t i = 0; i < n; i++) {
-			put_adapted(j, &a[i]);
-			adapt_free(j->o->profile, &a[i]);
+			put_refined(j, &a[i]);
+			angle_refinement_free(j->model, &a[i]);
 		}
 	}
 	for (size_t i = 0; i < b->n; i++)
@@ -199,41 +196,35 @@ static void choose_angles(struct job *j)
 			die("--theta", "%g stands twice", j->theta[i]);
 }
 
-const struct tab_col phase_theta_col = { "theta", TAB_F64, "deg" }, phase_p_col = { "p", TAB_F64, "sr^-1" };
-
 static void each(struct job *j, const char *output, const char *command)
 {
-	static const struct tab_col amplitudes[4] = {
-		{ "s1_re", TAB_F64, "1" }, { "s1_im", TAB_F64, "1" }, { "s2_re", TAB_F64, "1" }, { "s2_im", TAB_F64, "1" },
-	};
+	const struct tab_col own[OWN] = { column_theta, column_s1_re, column_s1_im, column_s2_re, column_s2_im, column_p };
 	struct tab_col cols[TAB_COLS];
 	struct batch b = { 0 };
 	struct waves next;
-	int k = coeffs_columns(j->in, cols);
-	cols[k] = phase_theta_col;
-	memcpy(cols + k + 1, amplitudes, sizeof amplitudes);
-	cols[k + 5] = phase_p_col;
-	int ncarried = coeffs_carried(j->in, k + 6, cols, cols + k + 6);
-	int more = coeffs_next(j->in, &next);
+	int k = spheres_key_columns(j->in, cols);
+	memcpy(cols + k, own, sizeof own);
+	int ncarried = spheres_carried(j->in, k + OWN, cols, cols + k + OWN);
+	int more = spheres_next(j->in, &next);
 	gather(j, &b, &next, &more);
-	j->out = tab_create(output, coeffs_history(j->in), command, k + 6 + ncarried, cols);
+	j->out = tab_create(output, spheres_history(j->in), command, k + OWN + ncarried, cols);
 	for (; b.n; gather(j, &b, &next, &more))
-		if (j->n || !j->o->profile)
+		if (j->n || !j->model->any_angles)
 			compute(j, &b);
 		else
-			compute_adapted(j, &b);
+			compute_refined(j, &b);
 	tab_finish(j->out);
 	free(b.w);
 	free(b.x_grid);
 }
 
-void phase_table(const struct phase_options *o, struct coeffs *in, phase_model *model, const void *context,
-                 const char *output, const char *command)
+void phase_table(const struct phase_options *o, struct spheres *in, const struct phase_model *model, const char *output,
+                 const char *command)
 {
-	struct job j = { .o = o, .in = in, .model = model, .context = context };
+	struct job j = { .o = o, .in = in, .model = model };
 	choose_angles(&j);
 	if (o->average)
-		average_table(o, in, model, context, j.n, j.theta, output, command);
+		ensemble_average_table(o, in, model, j.n, j.theta, output, command);
 	else
 		each(&j, output, command);
 	free(j.theta);

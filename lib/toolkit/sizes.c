@@ -3,12 +3,12 @@
 #include "base/ascending.h"
 #include "base/cpu.h"
 #include "base/die.h"
+#include "format/columns.h"
 #include "optics/index/ior.h"
 #include "optics/mie/mie_host.h"
 
 #include <math.h>
 #include <omp.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,8 +19,7 @@
 struct sizes {
 	struct tab *table;                  /* NULL: the options give the sizes */
 	int radius_col;
-	int ncarried, carried_col[TAB_COLS];
-	double row[TAB_COLS], carried[TAB_COLS];
+	double row[TAB_COLS];
 	struct reals radius, x;             /* as in the options */
 	size_t at;                          /* next of them */
 	size_t nwave, wave;                 /* wavelengths (1 by size parameter), and the next one */
@@ -29,29 +28,6 @@ struct sizes {
 	double complex *m;
 	double size_radius;                 /* (or x) of the size at hand */
 };
-
-double sizes_y_max(double complex m) { return cimag(m) > 1e-3 * cabs(m) ? 2e10 : 1e9; }
-
-double sizes_x(double radius, double wavelength, double host)
-{
-	return 2 * M_PI * radius * host / wavelength;
-}
-
-double size_x_im(const struct size *s)
-{
-	if (cimag(s->host) == 0)
-		return 0;
-	return s->wavelength > 0 ? sizes_x(s->radius, s->wavelength, cimag(s->host)) : s->x * (cimag(s->host) / creal(s->host));
-}
-
-const char *size_name(const struct size *s, char out[SIZE_NAME])
-{
-	if (s->wavelength > 0)
-		snprintf(out, SIZE_NAME, "radius %.9g um, wavelength %.9g um", s->radius, s->wavelength);
-	else
-		snprintf(out, SIZE_NAME, "x = %.9g", s->x);
-	return out;
-}
 
 static struct ior index_of(const char *option, const char *text)
 {
@@ -155,58 +131,13 @@ struct sizes *sizes_over(const struct sizes_options *o, struct tab *table)
 	s->x = o->x;
 	sizes_require(o);
 	for (size_t i = 0; i < o->x.n; i++)
-		if (!(o->x.v[i] >= SIZES_X_MIN && o->x.v[i] <= SIZES_X_MAX))
-			die("--size-parameter", "%g is out of range: from %g to %g", o->x.v[i], SIZES_X_MIN, SIZES_X_MAX);
+		if (!(o->x.v[i] >= SIZE_X_MIN && o->x.v[i] <= SIZE_X_MAX))
+			die("--size-parameter", "%g is out of range: from %g to %g", o->x.v[i], SIZE_X_MIN, SIZE_X_MAX);
 	indices(s, o);
 	if (table)
-		s->radius_col = tab_need(table, "radius", "um");
+		s->radius_col = tab_need(table, &column_radius);
 	sizes_threads(o);
 	return s;
-}
-
-int sizes_key_columns(int by_x, struct tab_col *cols)
-{
-	if (by_x) {
-		cols[0] = (struct tab_col){ "x", TAB_F64, "1" };
-		return 1;
-	}
-	cols[0] = (struct tab_col){ "wavelength", TAB_F64, "um" };
-	cols[1] = (struct tab_col){ "radius", TAB_F64, "um" };
-	return 2;
-}
-
-int sizes_key_values(int by_x, const struct size *size, double *row)
-{
-	if (by_x) {
-		row[0] = size->x;
-		return 1;
-	}
-	row[0] = size->wavelength;
-	row[1] = size->radius;
-	return 2;
-}
-
-int sizes_carried_of(const struct tab *t, int nown, const struct tab_col *own, struct tab_col *cols, int *index)
-{
-	int n = 0;
-	for (int i = 0; i < tab_ncols(t); i++) {
-		const struct tab_col *c = &tab_cols(t)[i];
-		int j = 0;
-		while (j < nown && strcmp(own[j].name, c->name))
-			j++;
-		if (j < nown)
-			continue;
-		if (nown + n == TAB_COLS)
-			die(tab_path(t), "has too many columns to carry through");
-		cols[n] = *c;
-		index[n++] = i;
-	}
-	return n;
-}
-
-int sizes_carried(struct sizes *s, int nown, const struct tab_col *own, struct tab_col *cols)
-{
-	return s->ncarried = s->table ? sizes_carried_of(s->table, nown, own, cols, s->carried_col) : 0;
 }
 
 int sizes_by_x(const struct sizes *s) { return s->x.n > 0; }
@@ -216,11 +147,10 @@ static void size_at(const struct sizes *s, size_t i, struct size *out)
 {
 	out->m = s->m[i];
 	out->host = s->host[i];
-	out->carried = s->carried;
 	out->first = i == 0;
 	out->wavelength = sizes_by_x(s) ? 0 : s->wavelength[i];
 	out->radius = sizes_by_x(s) ? 0 : s->size_radius;
-	out->x = sizes_by_x(s) ? s->size_radius : sizes_x(s->size_radius, out->wavelength, creal(out->host));
+	out->x = sizes_by_x(s) ? s->size_radius : size_parameter(s->size_radius, out->wavelength, creal(out->host));
 	out->x_im = size_x_im(out);
 }
 
@@ -235,15 +165,15 @@ static void check_x(const struct sizes *s, const struct size *size)
 			    2 * size->x_im, size_name(size, name), MIE_HOST_BETA_MAX);
 		m *= size->host / creal(size->host);    /* m x is now that of the complex x */
 	}
-	if ((creal(m) + cimag(m)) * x > 1e9 && cabs(m) * x > sizes_y_max(m))    /* the former without a root */
-		die("--particle", "size parameter %g times relative index %g exceeds %g", x, cabs(m), sizes_y_max(m));
-	if (x >= SIZES_X_MIN && x <= SIZES_X_MAX)
+	if ((creal(m) + cimag(m)) * x > 1e9 && cabs(m) * x > size_y_max(m))    /* the former without a root */
+		die("--particle", "size parameter %g times relative index %g exceeds %g", x, cabs(m), size_y_max(m));
+	if (x >= SIZE_X_MIN && x <= SIZE_X_MAX)
 		return;
 	if (s->table)
 		die(tab_path(s->table), "row %llu: size parameter %g (radius %g um, wavelength %g um) is out of range: from %g to %g",
-		    (unsigned long long)tab_row(s->table), x, radius, wavelength, SIZES_X_MIN, SIZES_X_MAX);
+		    (unsigned long long)tab_row(s->table), x, radius, wavelength, SIZE_X_MIN, SIZE_X_MAX);
 	die("--radius", "size parameter %g (radius %g um, wavelength %g um) is out of range: from %g to %g",
-	    x, radius, wavelength, SIZES_X_MIN, SIZES_X_MAX);
+	    x, radius, wavelength, SIZE_X_MIN, SIZE_X_MAX);
 }
 
 /* The next radius, or x; 0 at the end. */
@@ -264,8 +194,6 @@ static int next_size(struct sizes *s)
 		if (!(s->size_radius > 0) || isinf(s->size_radius))
 			die(tab_path(s->table), "row %llu: radius %g um is not a positive length",
 			    (unsigned long long)tab_row(s->table), s->size_radius);
-		for (int i = 0; i < s->ncarried; i++)
-			s->carried[i] = s->row[s->carried_col[i]];
 	}
 	for (size_t i = 0; i < s->nwave; i++) {
 		struct size size;
@@ -284,10 +212,10 @@ int sizes_next(struct sizes *s, struct size *out)
 	return 1;
 }
 
+const double *sizes_row(const struct sizes *s) { return s->row; }
+
 void sizes_close(struct sizes *s)
 {
-	if (s->table)
-		tab_close(s->table);
 	free(s->host);
 	free(s->m);
 	free(s);

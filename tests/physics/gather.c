@@ -71,6 +71,7 @@ static struct cube *make(size_t n, const double *c, uint32 seed)
 		q->scene.volume.largest = fmaxf(q->scene.volume.largest, q->disc_radius2[i]);
 	}
 	m->half[0] = m->half[1] = m->half[2] = 0.5;
+	m->kind = MEDIUM_PARTICLES;
 	m->n_particles = n;
 	m->particle = xalloc(n, 4 * sizeof(float));
 	for (size_t i = 0; i < n; i++) {
@@ -79,7 +80,7 @@ static struct cube *make(size_t n, const double *c, uint32 seed)
 			m->particle[4 * i + (size_t)a] = draw(&r, a) - 0.5f;
 		memcpy(&m->particle[4 * i + 3], &(int32_t){ (int32_t)(draw_bits(&r, 3) & 1) }, 4);
 	}
-	grid_build(m);
+	particle_grid_build(m);
 	q->scene.n_waves = q->scene.carried = WAVES;
 	q->scene.n_groups = 1;
 	q->scene.volume.n_classes = CLASSES;

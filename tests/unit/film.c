@@ -2,7 +2,7 @@
  * wavelengths. With c or opencl and a scene: a film is read and written in mid-run (both used by film.t). */
 #include "base/die.h"
 #include "format/exr.h"
-#include "medium/medium.h"
+#include "medium/medium_file.h"
 #include "render/backend.h"
 #include "render/colour.h"
 #include "render/image.h"
@@ -59,12 +59,12 @@ static void write_image(const char *path, const struct setup *u, const struct fi
 static int mid_run(int opencl, const char *path)
 {
 	struct scenefile file;
-	struct medium medium;
+	struct medium_file baked;
 	struct setup u;
 	struct film f, once, all;
 	scenefile_read(path, &file);
-	medium_open(file.medium, &medium);
-	setup_make(&u, &file, &medium, &(struct render_options){ .transport = TRANSPORT_EXPLICIT, .branches = 1, .seed = 1 });
+	medium_file_open(file.medium, &baked);
+	setup_make(&u, &file, &baked.medium, &(struct render_options){ .transport = TRANSPORT_EXPLICIT, .branches = 1, .seed = 1 });
 	film_make(&f, &u.scene);
 	film_make(&once, &u.scene);
 	film_make(&all, &u.scene);
@@ -82,14 +82,14 @@ static int mid_run(int opencl, const char *path)
 		if (half)
 			break;
 		memcpy(once.sum, f.sum, size);
-		write_image("half1.exr", &u, &f, &medium, 4);
+		write_image("half1.exr", &u, &f, &baked.medium, 4);
 		if (cl)
 			cl_read(cl, &f);
-		write_image("half2.exr", &u, &f, &medium, 4);
+		write_image("half2.exr", &u, &f, &baked.medium, 4);
 		if (!film_holds(&f) || memcmp(once.sum, f.sum, size))
 			return 1;
 	}
-	write_image("whole.exr", &u, &f, &medium, 8);
+	write_image("whole.exr", &u, &f, &baked.medium, 8);
 	int differ = memcmp(f.sum, all.sum, size) || !memcmp(f.sum, once.sum, size);
 	if (cl)
 		cl_free(cl);
@@ -97,7 +97,7 @@ static int mid_run(int opencl, const char *path)
 	film_free(&once);
 	film_free(&all);
 	setup_free(&u);
-	medium_close(&medium);
+	medium_file_close(&baked);
 	scenefile_free(&file);
 	return differ;
 }

@@ -1,0 +1,57 @@
+#include "medium/bake.h"
+
+#include "base/die.h"
+#include "format/columns.h"
+#include "medium/classes.h"
+
+#include <math.h>
+#include <string.h>
+
+static int outside(const struct medium *m, const double *q)
+{
+	if (m->round)
+		return sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]) > m->half[0] * (1 + 1e-6);
+	return fabs(q[0]) > m->half[0] * (1 + 1e-6) || fabs(q[1]) > m->half[1] * (1 + 1e-6) || fabs(q[2]) > m->half[2] * (1 + 1e-6);
+}
+
+char *bake_particles(const char *path, int bounded, struct medium *m)
+{
+	struct tab *t = tab_open(path);
+	int x = tab_need(t, &column_position[0]), y = tab_need(t, &column_position[1]), z = tab_need(t, &column_position[2]);
+	int radius = tab_need(t, &column_radius);
+	double row[TAB_COLS], low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY };
+	size_t room = 0;
+	while (tab_next(t, row)) {
+		unsigned long long number = (unsigned long long)tab_row(t);
+		double q[3] = { row[x], row[y], row[z] };
+		int32_t class = classes_find(m, t, row[radius]);
+		for (int a = 0; a < 3; a++) {
+			if (!(fabs(q[a]) < 1e9))
+				die(tab_path(t), "row %llu: a position is not within 1e9 m", number);
+			low[a] = fmin(low[a], q[a]);
+			high[a] = fmax(high[a], q[a]);
+		}
+		if (bounded && outside(m, q))
+			die(tab_path(t), "row %llu: the particle lies outside the box or sphere given", number);
+		if (m->n_particles == room) {
+			room = room ? 2 * room : 1024;
+			m->particle = xgrow(m->particle, room, 4 * sizeof *m->particle);
+		}
+		float *to = m->particle + 4 * m->n_particles;
+		for (int a = 0; a < 3; a++)
+			to[a] = (float)q[a];
+		memcpy(&to[3], &class, 4);
+		m->count[class]++;
+		if (++m->n_particles > INT32_MAX / 4)
+			die(tab_path(t), "more than %d particles", INT32_MAX / 4);
+	}
+	if (!m->n_particles)
+		die(tab_path(t), "has no rows");
+	/* Without a box: the bounding box of the centres about the origin, widened by what n uniform centres leave free on the
+	 * average, and no less than a particle. */
+	for (int a = 0; a < 3 && !bounded; a++)
+		m->half[a] = fmax(fmax(fabs(low[a]), fabs(high[a])) * (1 + 1.0 / (double)m->n_particles), 1e-6 * m->radius[m->n_classes - 1]);
+	char *history = xtext("%s", tab_history(t));
+	tab_close(t);
+	return history;
+}

@@ -1,0 +1,150 @@
+#include "medium/placement.h"
+
+#include "base/die.h"
+#include "format/columns.h"
+#include "medium/density.h"
+#include "medium/rng.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define HOPELESS 10000000        /* points tried without one kept */
+
+enum { PLACES, CLASSES, NUMBER };        /* streams of random numbers */
+
+struct sizes {
+	size_t n;
+	double *radius, *below;  /* below: weights of the classes up to and with this one */
+};
+
+struct placement {
+	struct placement_request asked;
+	struct sizes sizes;
+	const char *density;         /* its file; NULL: none */
+	struct npy_grid grid;
+	double top;                  /* its largest value */
+	double tries, count;         /* points to try, particles to keep: at most */
+	uint64_t tried, kept;
+};
+
+static struct sizes read_sizes(struct tab *t)
+{
+	struct sizes s = { 0, NULL, NULL };
+	int radius = tab_need(t, &column_radius), weight = tab_need(t, &column_weight);
+	double row[TAB_COLS], sum = 0;
+	for (size_t room = 0; tab_next(t, row); s.n++) {
+		if (s.n == room) {
+			room = 2 * room + 16;
+			s.radius = xgrow(s.radius, room, sizeof(double));
+			s.below = xgrow(s.below, room, sizeof(double));
+		}
+		if (!(row[radius] > 0 && isfinite(row[radius])))
+			die(tab_path(t), "row %llu: a radius is greater than 0, not %g", (unsigned long long)tab_row(t), row[radius]);
+		if (!(row[weight] >= 0 && isfinite(row[weight])))
+			die(tab_path(t), "row %llu: a weight is at least 0, not %g", (unsigned long long)tab_row(t), row[weight]);
+		s.radius[s.n] = row[radius];
+		s.below[s.n] = sum += row[weight];
+	}
+	if (!(sum > 0 && isfinite(sum)))
+		die(tab_path(t), "has no class with a weight");
+	return s;
+}
+
+/* The class in which the share u of all weights lies; one without weight is never drawn. */
+static size_t draw(const struct sizes *s, double u)
+{
+	size_t lo = 0, hi = s->n - 1;
+	double want = u * s->below[hi];
+	while (lo < hi) {
+		size_t mid = lo + (hi - lo) / 2;
+		if (s->below[mid] > want)
+			hi = mid;
+		else
+			lo = mid + 1;
+	}
+	return lo;
+}
+
+/* A coordinate as the f32 column holds it, not rounded out of the box. */
+static double inside(double v, double half)
+{
+	float f = (float)v;
+	return fabs((double)f) <= half ? f : nextafterf(f, 0);
+}
+
+/* Densities over their maximum: the chance that a point is kept. */
+static double scale(struct npy_grid *g, const char *name)
+{
+	double top = 0, sum = 0;
+	size_t n = g->nx * g->ny * g->nz;
+	for (size_t i = 0; i < n; i++) {
+		top = fmax(top, g->v[i]);
+		sum += g->v[i];
+	}
+	if (!(top > 0))
+		die(name, "is 0 everywhere");
+	if (sum / (double)n < 1e-4 * top)
+		die(name, "has a mean less than 1e-4 of its maximum; crop it, or raise the rest");
+	return top;
+}
+
+struct placement *placement_new(const struct placement_request *r, struct tab *sizes, const char *density)
+{
+	struct placement *p = xalloc(1, sizeof *p);
+	p->asked = *r;
+	p->sizes = read_sizes(sizes);
+	p->density = density;
+	p->top = 1;
+	if (density) {
+		p->grid = npy_density(density);
+		p->top = scale(&p->grid, density);
+	}
+	p->tries = INFINITY;
+	p->count = r->count;
+	/* Points uniform in the box, of which some are kept, are a Poisson process if their own number is Poisson's: no volume
+	 * and no mean density need to be known. */
+	if (isnan(r->count)) {
+		double mean = r->concentration * r->box[0] * r->box[1] * r->box[2] * p->top;
+		if (!(mean <= PLACEMENT_MOST))
+			die("--concentration", "makes more than %g particles", PLACEMENT_MOST);
+		p->tries = rng_poisson(mean, r->seed, NUMBER);
+		p->count = INFINITY;
+	}
+	return p;
+}
+
+int placement_next(struct placement *p, struct placed *out)
+{
+	const double *box = p->asked.box;
+	while ((double)p->tried < p->tries && (double)p->kept < p->count) {
+		uint64_t i = p->tried++;
+		uint32_t w[4];
+		double u[4];
+		if (i == HOPELESS && !p->kept && p->tries == INFINITY)
+			die(p->density, "is 0 almost everywhere in the sphere");
+		rng_block(p->asked.seed, i, PLACES, w);
+		for (int j = 0; j < 4; j++)
+			u[j] = rng_unit32(w[j]);
+		double q[3] = { 2 * u[0] - 1, 2 * u[1] - 1, 2 * u[2] - 1 };
+		if (p->asked.round && q[0] * q[0] + q[1] * q[1] + q[2] * q[2] > 1)
+			continue;
+		if (p->density && u[3] * p->top >= density_at(&p->grid, u[0], u[1], u[2]))
+			continue;
+		rng_block(p->asked.seed, i, CLASSES, w);
+		out->class = draw(&p->sizes, rng_unit53(w[0], w[1]));
+		out->radius = p->sizes.radius[out->class];
+		for (int a = 0; a < 3; a++)
+			out->at[a] = inside(q[a] * box[a] / 2, box[a] / 2);
+		p->kept++;
+		return 1;
+	}
+	return 0;
+}
+
+void placement_free(struct placement *p)
+{
+	free(p->sizes.radius);
+	free(p->sizes.below);
+	free(p->grid.v);
+	free(p);
+}
