@@ -1,5 +1,5 @@
 /* film_mid_run c|opencl SCENE: a film is read and written in mid-run, and goes on; used by film.t. */
-#include "medium/medium.h"
+#include "medium/medium_file.h"
 #include "render/backend.h"
 #include "render/image.h"
 
