@@ -74,7 +74,7 @@ void setup_make(struct setup *u, const struct scenefile *file, const struct medi
 	light_setup(u, file);
 	s->channels = channels(u, file);
 	s->spectral = options->spectral;
-	s->film_sums = FILM_SUMS + (s->spectral ? s->n_waves : 0);
+	s->film_sums = FILM_SUMS + (s->spectral ? 2 * s->n_waves : 0);
 	s->depth_scale = depth_scale(s);
 }
 

@@ -33,6 +33,7 @@ FN void path_begin(const struct scene *s, struct path *p, mv m, iv pixel, iv col
 		SET(m, p->weight[j], FV((float)s->n_groups));
 		SET(m, p->path_pdf[j], SEL(ilt(IV(j), p->waves.n), FV(1.f), FV(0.f)));
 		SET(m, p->spectrum[j], FV(0.f));
+		SET(m, p->spectral_alpha[j], FV(0.f));
 		SET(m, p->peak_share[j], FV(1.f));
 	}
 	SET(m, p->direction_pdf, FV(0.f));
@@ -44,6 +45,7 @@ FN void path_begin(const struct scene *s, struct path *p, mv m, iv pixel, iv col
 		SET(m, p->before[1][i], FV(0.f));
 		SET(m, p->aside[0][i], FV(0.f));
 		SET(m, p->aside[1][i], FV(0.f));
+		SET(m, p->alpha[i], FV(0.f));
 	}
 	SET(m, p->split.branch, unsigned_of(sample) * (uint32)s->branches);
 	SET(m, p->split.left, IV(0));
@@ -85,6 +87,24 @@ FN void path_leave(const struct scene *s, const struct volume *v, const struct t
 	}
 }
 
+/* Camera rays m have come to their first surface, or been scattered before it: at wavelength j the medium took away taken[j] of what is
+ * behind. */
+FN void path_alpha(const struct scene *s, const struct tables *t, struct path *p, mv m, const fv *taken)
+{
+	EACH_WAVE(j) {
+		fv add = SEL(m & ilt(IV(j), p->waves.n), taken[j] * (float)s->n_groups, FV(0.f));
+		for (int i = 0; COLOURED && i < 3; i++) {
+#ifdef WAVES
+			p->alpha[i] += add * float_at(t->colour, 6 * j + i);
+#else
+			p->alpha[i] += add * gather(m, t->colour, 6 * wave_of(s, p->waves, j) + i);
+#endif
+		}
+		if (SPECTRAL)
+			p->spectral_alpha[j] += add;
+	}
+}
+
 /* Flights of lanes m have ended. Returns the lanes whose path is over. */
 FN mv path_arrive(const struct scene *s, const struct volume *v, const struct tables *t, struct path *p, mv m)
 {
@@ -93,6 +113,14 @@ FN mv path_arrive(const struct scene *s, const struct volume *v, const struct ta
 	mv alive = m & lt(FV(0.f), take_pdf(s, p->waves, p->path_pdf, m, flight_pdf));
 	mv hit = alive & c.happened, ground = alive & NOT(c.happened) & ieq(p->surface, IV(GROUND)), out = alive & NOT(hit | ground);
 	mv over = m & NOT(hit | ground);
+	if (COLOURED || SPECTRAL) {
+		mv seen = m & ieq(p->order, IV(0)) & le(p->direction_pdf, FV(0.f));
+		fv taken[CARRIED];
+		EACH_WAVE(j)    /* 1 less what is seen of light behind, so that both are one to the last bit */
+			taken[j] = SEL(alive & NOT(hit), 1.f - PATH_PDF(p, j), FV(1.f));
+		if (any(seen))
+			path_alpha(s, t, p, seen, taken);
+	}
 	p->flying &= NOT(m);
 	if (any(out))
 		path_leave(s, v, t, p, out);

@@ -58,6 +58,8 @@ struct path {
 	fv aside[2][3];            /* what came by chains, or by branches that are over, scattered once and more often on the whole */
 	fv depth;                  /* along the camera's ray to where the medium scattered it, -1 if it did not */
 	fv spectrum[CARRIED];      /* all that was seen, by wavelength; kept for spectral images */
+	fv alpha[3];               /* what the medium took away from white light behind it; of one wavelength not kept */
+	fv spectral_alpha[CARRIED];     /* the same by wavelength, as spectrum */
 	/* on the way: in flight to a surface or beyond, or from a vertex to a light */
 	struct volume_walk walk;
 	struct random walk_random; /* of the walk: the vertex's, or a chain's own */

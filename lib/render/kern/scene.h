@@ -92,7 +92,7 @@ struct scene {
 	int branches;              /* ways that a camera ray goes on from where the medium first scatters it */
 	float branch_share;        /* 1 / branches */
 	int channels;              /* 3; 1 where red, green and blue are the same */
-	int film_sums;             /* of a pixel: FILM_SUMS, and one a wavelength if spectral */
+	int film_sums;             /* of a pixel: FILM_SUMS, and two a wavelength if spectral */
 	int spectral;
 	float depth_scale;         /* a power of 2: depths times this are below 1 */
 };
