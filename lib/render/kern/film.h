@@ -86,10 +86,10 @@ FN mv film_values(const struct scene *s, struct path *p, mv m, fv *value)
 		value[SUM_OF(SUM_MULTIPLE, c)] = more;
 		all[c] = value[SUM_OF(SUM_ALL, c)] + value[SUM_OF(SUM_SINGLE, c)] + value[SUM_OF(SUM_MULTIPLE, c)];
 	}
-	mv seen = le(zero, p->depth);    /* wavelengths of smaller groups are heroes more often */
+	/* wavelengths of smaller groups are heroes more often */
 	fv share = s->n_groups == 1 ? FV(1.f) : to_float(p->waves.n * s->n_groups) / (float)s->n_waves;
-	value[SUM_ALPHA] = SEL(seen, share, zero);
-	value[SUM_DEPTH] = SEL(seen, share * (p->depth * s->depth_scale), zero);
+	value[SUM_ALPHA] = share * p->cover;
+	value[SUM_DEPTH] = SEL(le(zero, p->depth), share * (p->depth * s->depth_scale), zero);
 	value[SUM_LUMINANCE] = CHANNELS == 1 ? all[0] : 0.2126f * all[0] + 0.7152f * all[1] + 0.0722f * all[2];
 	bad |= film_clamp(m, &value[SUM_LUMINANCE]);
 	value[SUM_ALPHA_RED] = COLOURED ? p->alpha[0] : zero;
