@@ -7,6 +7,7 @@
 #define FORMAT_LIMITS_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 /* Tables, tab(5). */
 #define TAB_COLS 64                     /* columns: rows lie on the stack */
@@ -32,6 +33,11 @@
 #define MEDIUM_WAVES 1024               /* wavelengths */
 #define MEDIUM_VOXELS_SIDE 4096         /* voxels along a side */
 #define MEDIUM_CELLS_SIDE (1 << 24)     /* cells of the particles' grid along a side: floats count them exactly */
+#define MEDIUM_PARTICLES_MOST (INT32_MAX / 4)     /* particles, of four floats */
+#define MEDIUM_REACH 1e9                /* m: half sides and positions are below */
+#define MEDIUM_VALUE 1e30               /* counts, cross sections, densities and extinctions are below: floats hold their products */
+#define MEDIUM_DISC_LEAST 1e-25         /* um^2: the largest particle is no smaller, so that its disc in m^2 is a normal float */
+#define MEDIUM_INTERVAL 0.01746f        /* rad, between two angles of a phase function: 1 degree, and a rounding */
 #define PHASE_ANGLES_MAX (1 << 24)      /* of one phase function in a table: positions among them fit a float and an int */
 
 #endif

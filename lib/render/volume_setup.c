@@ -64,7 +64,7 @@ static void phases(struct setup *u, const struct medium *m, int suns)
 	struct volume *v = &u->scene.volume;
 	struct forward_peak peak;
 	forward_peak_make(&peak, m, suns ? v->only_class : -1);
-	phase_sampler_make(&u->sampler, peak.n_classes, m->n_waves, peak.range, peak.theta, peak.p, peak.cdf);
+	phase_sampler_make(&u->sampler, peak.n_classes, m->n_waves, peak.range, peak.theta, peak.p);
 	v->peak = (float)peak.share;
 	v->chain_scale = peak.share > 0 ? (float)(-1 / log(peak.share)) : 0;
 	SET_TABLE(u, truncation, setup_own(u, peak.truncation), (size_t)m->n_waves);
