@@ -13,6 +13,7 @@
 #define TAB_COLS 64                     /* columns: rows lie on the stack */
 #define TAB_NAME 32                     /* bytes of a column's name or unit, with the final 0 */
 #define TAB_HEADER_MAX (1u << 20)       /* bytes of a header: it is held whole */
+#define HISTORY_LINES 4096              /* commands in the history of a table, medium or image: joining two looks for each in the other */
 #define TAB_BLOCK_MAX (1u << 20)        /* bytes of a block of rows: it is held whole, and checked before its rows are used */
 
 /* OpenEXR images. */

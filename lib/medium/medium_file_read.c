@@ -137,7 +137,7 @@ static void header(const char *path, struct medium_file *f, uint64_t *n)
 	struct medium *m = &f->medium;
 	size_t most = f->size < MEDIUM_HEADER_MAX ? f->size : MEDIUM_HEADER_MAX, at = strlen(MEDIUM_MAGIC);
 	const char *text = f->map;
-	int section = 0, lines = 0;
+	int section = 0, lines = 0, commands = 0;
 	uint64_t former = 0;
 	m->history = xtext("%s", "");
 	for (;;) {
@@ -153,6 +153,8 @@ static void header(const char *path, struct medium_file *f, uint64_t *n)
 			break;
 		}
 		if (!strncmp(line, "cmd\t", 4)) {
+			if (++commands > HISTORY_LINES)
+				damaged(path, "its history is of too many commands");
 			xappend(&m->history, "%s\n", line + 4);
 		} else if (!strncmp(line, "shape\t", 6)) {
 			shape(path, m, line);
