@@ -11,6 +11,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 
 int main(int argc, char **argv)
 {
@@ -64,5 +65,10 @@ int main(int argc, char **argv)
 		particle_counts_build(&m, (int)voxels);
 	}
 	medium_file_write(output, &m);
+	medium_free(&m);
+	free(history);
+	free(matter);
+	free(phases);
+	free(args.history);
 	return 0;
 }

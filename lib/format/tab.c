@@ -21,11 +21,6 @@ int tab_type_parse(const char *name)
 	return -1;
 }
 
-size_t tab_type_size(enum tab_type type)
-{
-	return type == TAB_F64 ? 8 : 4;
-}
-
 const char *tab_col_valid(const struct tab_col *col)
 {
 	if (!col->name[0] || col->name[strspn(col->name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_")])

@@ -1,6 +1,7 @@
 #include "medium/medium.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 double medium_volume(const struct medium *m)
 {
@@ -13,4 +14,12 @@ double medium_depth(const struct medium *m)
 	for (int k = 0; k < m->n_classes; k++)
 		c += m->count[k] * m->c_ext[k * m->n_waves];
 	return c * 1e-12 / medium_volume(m) * 2 * fmin(m->half[0], fmin(m->half[1], m->half[2]));
+}
+
+void medium_free(struct medium *m)
+{
+	void *const own[] = { m->history, m->wavelength, m->radius, m->count, m->c_ext, m->c_sca, m->node, m->theta, m->p, m->cdf,
+		m->particle, m->first, m->voxel_count, m->density };
+	for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+		free(own[i]);
 }

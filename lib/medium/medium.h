@@ -45,4 +45,7 @@ double medium_volume(const struct medium *m);
 /* medium_depth - mean optical depth along the shortest axis at the first wavelength. */
 double medium_depth(const struct medium *m);
 
+/* medium_free - one whose arrays are its own: a baked one, not one of a file (medium_file_close). */
+void medium_free(struct medium *m);
+
 #endif

@@ -128,26 +128,29 @@ struct placement *placement_new(const struct placement_request *r, struct tab *s
 
 int placement_next(struct placement *p, struct placed *out)
 {
-	const double *box = p->asked.box;
-	while ((double)p->tried < p->tries && (double)p->kept < p->count) {
-		uint64_t i = p->tried++;
+	const double *box = p->asked.box, tries = p->tries;
+	const uint64_t seed = p->asked.seed;
+	const int round = p->asked.round;
+	if (!((double)p->kept < p->count))
+		return 0;
+	for (uint64_t i = p->tried; (double)i < tries; i++) {
 		uint32_t w[4];
 		double u[4];
 		if (i == TRIAL && (double)p->kept < SPARSE * TRIAL && p->density)
-			die(p->density, "keeps fewer than %g of all points%s; crop it, or raise the rest", SPARSE, p->asked.round ? " in the sphere" : "");
-		rng_block(p->asked.seed, i, PLACES, w);
+			die(p->density, "keeps fewer than %g of all points%s; crop it, or raise the rest", SPARSE, round ? " in the sphere" : "");
+		rng_block(seed, i, PLACES, w);
 		for (int j = 0; j < 4; j++)
 			u[j] = rng_unit32(w[j]);
-		double q[3] = { 2 * u[0] - 1, 2 * u[1] - 1, 2 * u[2] - 1 };
-		if (p->asked.round && q[0] * q[0] + q[1] * q[1] + q[2] * q[2] > 1)
+		double x = 2 * u[0] - 1, y = 2 * u[1] - 1, z = 2 * u[2] - 1;
+		if (round && x * x + y * y + z * z > 1)
 			continue;
 		if (p->density && u[3] * p->top >= density_at(&p->grid, u[0], u[1], u[2]))
 			continue;
-		rng_block(p->asked.seed, i, CLASSES, w);
-		out->class = draw(&p->sizes, rng_unit53(w[0], w[1]));
-		out->radius = p->sizes.radius[out->class];
-		for (int a = 0; a < 3; a++)
-			out->at[a] = inside(q[a] * box[a] / 2, box[a] / 2);
+		rng_block(seed, i, CLASSES, w);
+		size_t class = draw(&p->sizes, rng_unit53(w[0], w[1]));
+		*out = (struct placed){ { inside(x * box[0] / 2, box[0] / 2), inside(y * box[1] / 2, box[1] / 2),
+		    inside(z * box[2] / 2, box[2] / 2) }, p->sizes.radius[class], class };
+		p->tried = i + 1;
 		p->kept++;
 		return 1;
 	}

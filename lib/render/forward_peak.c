@@ -53,7 +53,10 @@ static double truncation_of(const struct row *r)
 	return high;
 }
 
-static int by_value(const void *a, const void *b) { return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b); }
+static int by_value(const void *a, const void *b)
+{
+	return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b);
+}
 
 /* The nodes of the peak: the table's, and where a wavelength crosses its truncation. Returns how many; theta may be NULL. */
 static int nodes(const struct medium *m, int class, const float *truncation, float *theta)

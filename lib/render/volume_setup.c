@@ -180,7 +180,7 @@ void volume_setup(struct setup *u, const struct scenefile *f, const struct mediu
 	/* particles scatter by their class, everything else as the mixture */
 	v->only_class = v->transport == TRANSPORT_CONTINUOUS || !v->counted ? m->n_classes : m->n_classes == 1 ? 0 : -1;
 	v->round = m->round;
-	to_floats(m->half, v->extent);
+	setup_floats(m->half, v->extent);
 	optics(u, m);
 	colours(u, m);
 	phases(u, m, suns);

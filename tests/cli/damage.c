@@ -319,7 +319,7 @@ int main(void)
 		die("MOTES_BUILD", "is not set; run by tests/run");
 	char *build = realpath(getenv("MOTES_BUILD"), NULL), *bin = xtext("%s/bin", build);
 	setenv("BIN", bin, 1);
-	setenv("ASAN_OPTIONS", "exitcode=99:detect_leaks=0", 0);     /* for the tools: as in tests/support/lib.sh */
+	setenv("ASAN_OPTIONS", "exitcode=99", 0);     /* for the tools: as in tests/support/lib.sh */
 	setenv("OMP_NUM_THREADS", "1", 0);
 	make_inputs();
 	for (size_t i = 0; i < READERS; i++) {

@@ -168,13 +168,27 @@ for r in 0:3 3:6; do vrender hot.scene --sample-range $r -o hot$r.exr; done
 refused 'more light than a film holds, in the sum' 'too strong' exr-merge -o x.exr hot0:3.exr hot3:6.exr
 is '' "$(ls x.exr* 2>/dev/null)" 'no image appears under its name'
 
+# ---- a film read and written in mid-run goes on as if it had not been
+
+for backend in c opencl; do
+	rm -f half?.exr whole.exr
+	"$MOTES_BUILD/tests/support/film_mid_run" $backend three.scene
+	ok $? "$backend: read in mid-run, a film is as it was, and goes on to what one run gives"
+	vrender three.scene --transport explicit --sample-range 0:4 -o part.exr
+	cmp half1.exr half2.exr && imgcmp --max 0 half1.exr part.exr >/dev/null
+	ok $? "$backend: finished twice, it is the same image, that of its samples"
+	vrender three.scene --transport explicit --sample-range 0:8 -o part.exr
+	imgcmp --max 0 whole.exr part.exr >/dev/null
+	ok $? "$backend: and so it is when all are in"
+done
+
 # ---- spectral layers
 
 vrender three.scene --samples 4 --spectral -o spectral.exr
-ok "$("$MOTES_BUILD/tests/unit/film" spectral.exr >got; echo $?)" "the wavelengths' colours are the image's: $(cat got)"
+ok "$("$MOTES_BUILD/tests/support/spectral_colours" spectral.exr >got; echo $?)" "the wavelengths' colours are the image's: $(cat got)"
 scene coloured.scene three.medium 24 'lights = ( { type = "sun"; direction = [-0.6, -1.0, -0.3]; irradiance = [3.0, 1.0, 0.2]; } );'
 vrender coloured.scene --samples 4 --spectral -o spectral.exr
-ok "$("$MOTES_BUILD/tests/unit/film" spectral.exr >got; echo $?)" "of a coloured light, by three wavelengths: $(cat got)"
+ok "$("$MOTES_BUILD/tests/support/spectral_colours" spectral.exr >got; echo $?)" "of a coloured light, by three wavelengths: $(cat got)"
 many='0.40 0.42 0.44 0.46 0.48 0.50 0.52 0.54 0.56 0.58 0.60'
 # shellcheck disable=SC2086
 {
@@ -183,7 +197,7 @@ many='0.40 0.42 0.44 0.46 0.48 0.50 0.52 0.54 0.56 0.58 0.60'
 }
 scene many.scene many.medium 24 "$lights"
 vrender many.scene --samples 32 --spectral -o many.exr
-ok "$("$MOTES_BUILD/tests/unit/film" many.exr >got; echo $?)" "with paths that carry a part of them each too: $(cat got)"
+ok "$("$MOTES_BUILD/tests/support/spectral_colours" many.exr >got; echo $?)" "with paths that carry a part of them each too: $(cat got)"
 is 'spectralLayoutVersion: "1.0" emissiveUnits: "W.m^-2.sr^-1"' \
 	"$(oiiotool --info -v many.exr | sed -n 's/^ *\(spectralLayoutVersion.*\)/\1/p') $(oiiotool --info -v many.exr | sed -n 's/^ *\(emissiveUnits.*\)/\1/p')" \
 	'the layout is named'
