@@ -74,7 +74,7 @@ static int next_line(struct tab_text *t)
 {
 	ssize_t length = getline(&t->line, &t->room, t->f);
 	if (length < 0) {
-		if (ferror(t->f))
+		if (!feof(t->f))           /* also where there is no memory for a line */
 			die(t->path, "cannot read:");
 		return 0;
 	}

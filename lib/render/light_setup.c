@@ -16,8 +16,8 @@ static struct light sun_light(const struct sun *sun)
 		/* the irradiance of a disc of radiance L, perpendicular to its axis, is pi L sin^2 */
 		l.rgb[k] = (float)(l.delta ? sun->irradiance[k] : sun->irradiance[k] / (M_PI * pow(sin(half), 2)));
 	}
-	unit(towards);
-	to_floats(towards, l.at);
+	setup_unit(towards);
+	setup_floats(towards, l.at);
 	struct vec inverse = inverse3(load3(l.at));
 	memcpy(l.inverse, (float[]){ inverse.x, inverse.y, inverse.z }, sizeof l.inverse);
 	l.one_minus_cos = (float)one_minus_cos;
@@ -29,21 +29,21 @@ static struct light sun_light(const struct sun *sun)
 static double quad_surface(const struct quad *quad, const double *origin, struct surface *q)
 {
 	double normal[3], across[3], area = 0;
-	cross(quad->edge[0], quad->edge[1], normal);
+	setup_cross(quad->edge[0], quad->edge[1], normal);
 	for (int k = 0; k < 3; k++)
 		area += normal[k] * normal[k];
 	area = sqrt(area);
-	unit(normal);
+	setup_unit(normal);
 	for (int i = 0; i < 2; i++) {
 		/* in the plane, perpendicular to the other edge; its product with its own edge is the area */
-		cross(i ? normal : quad->edge[1], i ? quad->edge[0] : normal, across);
+		setup_cross(i ? normal : quad->edge[1], i ? quad->edge[0] : normal, across);
 		for (int k = 0; k < 3; k++)
 			q->dual[i][k] = (float)(across[k] / area);
-		to_floats(quad->edge[i], q->edge[i]);
+		setup_floats(quad->edge[i], q->edge[i]);
 	}
 	for (int k = 0; k < 3; k++)
 		q->corner[k] = (float)(quad->corner[k] - origin[k]);
-	to_floats(normal, q->normal);
+	setup_floats(normal, q->normal);
 	q->light = NONE;
 	return area;
 }
@@ -78,7 +78,7 @@ static void quad_lights(struct scene *s, const struct scenefile *f)
 			struct light l = { .kind = LIGHT_QUAD, .surface = s->surfaces.n };
 			if (f->light[i].kind != LIGHT_QUAD)
 				continue;
-			to_floats(f->light[i].quad.radiance, l.rgb);
+			setup_floats(f->light[i].quad.radiance, l.rgb);
 			if (shines(l.rgb) == dark)
 				continue;
 			struct surface *q = &s->surfaces.surface[s->surfaces.n++];
@@ -93,7 +93,7 @@ void light_setup(struct setup *u, const struct scenefile *f)
 {
 	struct scene *s = &u->scene;
 	struct lights *lights = &s->lights;
-	to_floats(f->environment, lights->environment);
+	setup_floats(f->environment, lights->environment);
 	for (int i = 0; i < f->n_lights; i++)
 		if (f->light[i].kind == LIGHT_SUN) {
 			struct light l = sun_light(&f->light[i].sun);

@@ -6,20 +6,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-void unit(double *v)
+void setup_unit(double *v)
 {
 	double n = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 	for (int i = 0; i < 3; i++)
 		v[i] /= n;
 }
 
-void cross(const double *a, const double *b, double *out)
+void setup_cross(const double *a, const double *b, double *out)
 {
 	for (int i = 0; i < 3; i++)
 		out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-void to_floats(const double *v, float *out)
+void setup_floats(const double *v, float *out)
 {
 	for (int i = 0; i < 3; i++)
 		out[i] = (float)v[i];

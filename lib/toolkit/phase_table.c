@@ -17,6 +17,7 @@
 #define CHUNK_ANGLES 500000       /* computed together, at most, but for one particle's */
 #define CHUNK_X 20000             /* refined together: sum of size parameters, at most, but for one particle's */
 #define BLOCK 4096                /* angles of a row of waves, handed on together */
+#define TOGETHER 64               /* rows of which the elements are found together */
 #define OWN (5 + PHASE_ELEMENTS)  /* columns: theta, amplitudes, elements */
 
 struct batch {
@@ -66,14 +67,20 @@ static void put_rows(struct job *j, const struct waves *w, int n, const double *
 	double row[TAB_COLS];
 	int k = spheres_key(j->in, &w->size, row);
 	spheres_carry(j->in, w, row + k + OWN);
-	for (int i = 0; i < n; i++) {
-		row[k] = theta[i];
-		row[k + 1] = creal(s1[i]);
-		row[k + 2] = cimag(s1[i]);
-		row[k + 3] = creal(s2[i]);
-		row[k + 4] = cimag(s2[i]);
-		phase_model_elements(norm, 1, &s1[i], &s2[i], 1, row + k + 5);
-		tab_put(j->out, row);
+	for (int from = 0; from < n; from += TOGETHER) {
+		double value[PHASE_ELEMENTS * TOGETHER];
+		int count = n - from < TOGETHER ? n - from : TOGETHER;
+		phase_model_elements(norm, count, s1 + from, s2 + from, TOGETHER, value);
+		for (int i = 0; i < count; i++) {
+			row[k] = theta[from + i];
+			row[k + 1] = creal(s1[from + i]);
+			row[k + 2] = cimag(s1[from + i]);
+			row[k + 3] = creal(s2[from + i]);
+			row[k + 4] = cimag(s2[from + i]);
+			for (int e = 0; e < PHASE_ELEMENTS; e++)
+				row[k + 5 + e] = value[e * TOGETHER + i];
+			tab_put(j->out, row);
+		}
 	}
 }
 

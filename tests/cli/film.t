@@ -168,6 +168,20 @@ for r in 0:3 3:6; do vrender hot.scene --sample-range $r -o hot$r.exr; done
 refused 'more light than a film holds, in the sum' 'too strong' exr-merge -o x.exr hot0:3.exr hot3:6.exr
 is '' "$(ls x.exr* 2>/dev/null)" 'no image appears under its name'
 
+# ---- a film read and written in mid-run goes on as if it had not been
+
+for backend in c opencl; do
+	rm -f half?.exr whole.exr
+	"$MOTES_BUILD/tests/support/film_mid_run" $backend three.scene
+	ok $? "$backend: read in mid-run, a film is as it was, and goes on to what one run gives"
+	vrender three.scene --transport explicit --sample-range 0:4 -o part.exr
+	cmp half1.exr half2.exr && imgcmp --max 0 half1.exr part.exr >/dev/null
+	ok $? "$backend: finished twice, it is the same image, that of its samples"
+	vrender three.scene --transport explicit --sample-range 0:8 -o part.exr
+	imgcmp --max 0 whole.exr part.exr >/dev/null
+	ok $? "$backend: and so it is when all are in"
+done
+
 # ---- spectral layers
 
 vrender three.scene --samples 4 --spectral -o spectral.exr

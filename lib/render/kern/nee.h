@@ -8,7 +8,8 @@
 
 /* What wavelengths scatter from the path's direction into another one at their vertices, lanes m, sr^-1: a phase function, or on the
  * ground a cosine on the side that the path comes from. */
-FN void vertex_value(const struct scene *s, const struct volume *v, const struct tables *t, const struct path *p, mv m, struct vec along, fv *value)
+FN void vertex_value(const struct scene *s, const struct volume *v, const struct tables *t, const struct path *p, mv m, struct vec along,
+                     fv *value)
 {
 	mv ground = ON_GROUND(p->vertex);
 	if (IS_ISOTROPIC(v))
