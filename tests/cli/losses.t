@@ -4,10 +4,10 @@
 . "$(dirname "$0")/../support/lib.sh"
 # shellcheck source=tests/support/media.sh
 . "$top/tests/support/media.sh"
-tab=$(printf '\t')
 sanitized=
 case $MOTES_BUILD in *asan*) sanitized=1 ;; esac      # its memory is not to be limited
 # starved KB COMMAND..: with so much memory
+# shellcheck disable=SC3045    # not POSIX, but what sh is on Linux has it
 starved() { (ulimit -v "$1"; shift; exec "$@"); }
 
 # ---- outputs
