@@ -7,4 +7,7 @@
 /* particle_grid_build - choose the cells so that a ray costs least, and sort the particles into their order. */
 void particle_grid_build(struct medium *m);
 
+/* particle_grid_agrees - whether every particle lies in the cell that has it. */
+int particle_grid_agrees(const struct medium *m);
+
 #endif
