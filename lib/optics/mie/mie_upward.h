@@ -11,6 +11,7 @@ struct constants {
 	vec inv_re, inv_im, norm, less;      /* 1/m, |m|^2, Re 1/m - 1 */
 	vec c_re, c_im;                      /* (1 - 1/m^2)/x */
 	vec cm_re, cm_im;                    /* |m|^2 times that */
+	vec reach, bend;                     /* of struct coefficients_of_order: |m^2 - 1| and what x is off, (1 + 1/|m|^2)/x^2 */
 };
 
 INLINE struct constants constants_of(int absorb, vec x, vec m_re, vec m_im, vec beyond, vec terms)
@@ -26,12 +27,18 @@ INLINE struct constants constants_of(int absorb, vec x, vec m_re, vec m_im, vec 
 		g.cm_re = g.c_re * m2;
 		g.cm_im = g.c_im * m2;
 		g.less = (m_re * (1.0 - m_re) - m_im * m_im) / m2;
+		g.reach = size_of((m_re - 1.0) * (m_re + 1.0) - m_im * m_im) + 2.0 * (m_re * m_im);
+		g.bend = vr * vr + vi * vi;
 	} else {
 		g.inv_re = 1.0 / m_re;
 		g.inv_im = g.c_im = g.cm_re = g.cm_im = g.norm = each(0);
 		g.c_re = (m_re - 1.0) * (m_re + 1.0) * (g.inv_re * g.inv_re) * g.inv_x;
 		g.less = (1.0 - m_re) * g.inv_re;
+		g.reach = size_of((m_re - 1.0) * (m_re + 1.0));
+		g.bend = g.inv_re * g.inv_re;
 	}
+	g.reach = g.reach * (MIE_OFF * x);
+	g.bend = (1.0 + g.bend) * (g.inv_x * g.inv_x);
 	return g;
 }
 
