@@ -24,9 +24,10 @@
  *
  *     |da_l/dx| = |1 - 1/m^2| |D_l(y)^2 + l(l+1)/x^2| / |A - iC|^2,    |db_l/dx| = |m^2 - 1| / |A - iC|^2,
  *
- * |A - iC|^2 the denominator above. On a resonance C = 0, whence D_l(y)^2/m^2 = l^2/x^2 - 1 about. That is 1/chi_l^2 apart from one, and
- * chi_l^2 on it: there what rounding does to x and m counts for more than all other rounding. Where it moves C by more than C, the whole
- * of a_l is open. */
+ * |A - iC|^2 the denominator above. On a resonance, x < l < |m| x, C = 0, whence A = 1/chi_l and D_l(y)^2/m^2 = l^2/x^2 - 1 about: both are
+ * |m^2 - 1| chi_l^2 |a_l|^2 or up to |m|^2 times that, for which |m| + 1/|m| stands. That is small apart from resonances; there what rounding
+ * does to x and m counts for more than all other rounding. Where it moves C by more than C, the whole of a_l is open: by 4 chi_l^2 times
+ * the move. */
 #ifndef OPTICS_MIE_COEFFICIENTS_H
 #define OPTICS_MIE_COEFFICIENTS_H
 
@@ -190,18 +191,20 @@ INLINE void coefficients_of(struct regime is, const struct constants *g, vec l, 
 	}
 	if (!is.from_x)
 		return;
-	truths good = (g->terms >= l) & (k->chi <= CHI_MAX) & (k->chi >= -CHI_MAX);
-	if (!is.near) {
-		vec a = f.a_scale * f.a_scale * (l * l * g->bend - 1.0) * ra, b = f.b_scale * f.b_scale * rb;
-		vec t = (a + b) * g->reach * (1.0 + 4.0 * (g->reach * (k->chi * k->chi)));
-		out->moved = PICK(good & (g->x <= l), t * t, each(0));
-	}
+	vec chi2 = k->chi * k->chi;
+	truths good = (g->terms >= l) & (chi2 <= CHI_MAX * CHI_MAX);
+	if (!is.near)
+		chi2 = PICK(good & (g->x <= l), chi2, each(0));
 	for (int i = 0; i < 2; i++) {
 		out->a[i] = PICK(good, out->a[i], each(0));
 		out->b[i] = PICK(good, out->b[i], each(0));
 	}
 	if (is.absorb)
 		out->sca = PICK(good, out->sca, each(0));
+	if (!is.near) {
+		vec squares = is.absorb ? out->sca : out->a[0] + out->b[0], t = squares * chi2 * (g->reach + g->missed * chi2);
+		out->moved = t * t;
+	}
 }
 
 #endif

@@ -12,7 +12,7 @@
 #include <float.h>
 #include <stddef.h>
 
-#define MIE_OFF DBL_EPSILON    /* relative error of x that does what rounding of x and m and of the recurrences does */
+#define MIE_OFF (0.75 * DBL_EPSILON)    /* relative error of x that does what rounding of x and m and of the recurrences does */
 #define MIE_NEAR 0.005         /* |m - 1| below which coefficients are taken from differences */
 
 static inline int mie_near(double complex m)

@@ -11,7 +11,7 @@ struct constants {
 	vec inv_re, inv_im, norm, less;      /* 1/m, |m|^2, Re 1/m - 1 */
 	vec c_re, c_im;                      /* (1 - 1/m^2)/x */
 	vec cm_re, cm_im;                    /* |m|^2 times that */
-	vec reach, bend;                     /* of struct coefficients_of_order: |m^2 - 1| and what x is off, (1 + 1/|m|^2)/x^2 */
+	vec reach, missed;                   /* h |m^2 - 1| (|m| + 1/|m|), 4 h |m^2 - 1| times that: h, what x is off */
 };
 
 INLINE struct constants constants_of(int absorb, vec x, vec m_re, vec m_im, vec beyond, vec terms)
@@ -28,17 +28,18 @@ INLINE struct constants constants_of(int absorb, vec x, vec m_re, vec m_im, vec 
 		g.cm_im = g.c_im * m2;
 		g.less = (m_re * (1.0 - m_re) - m_im * m_im) / m2;
 		g.reach = size_of((m_re - 1.0) * (m_re + 1.0) - m_im * m_im) + 2.0 * (m_re * m_im);
-		g.bend = vr * vr + vi * vi;
+		g.missed = size_of(vr) + size_of(vi);
 	} else {
 		g.inv_re = 1.0 / m_re;
 		g.inv_im = g.c_im = g.cm_re = g.cm_im = g.norm = each(0);
 		g.c_re = (m_re - 1.0) * (m_re + 1.0) * (g.inv_re * g.inv_re) * g.inv_x;
 		g.less = (1.0 - m_re) * g.inv_re;
 		g.reach = size_of((m_re - 1.0) * (m_re + 1.0));
-		g.bend = g.inv_re * g.inv_re;
+		g.missed = g.inv_re;
 	}
-	g.reach = g.reach * (MIE_OFF * x);
-	g.bend = (1.0 + g.bend) * (g.inv_x * g.inv_x);
+	vec moved = MIE_OFF * x * g.reach;
+	g.reach = moved * (1.0 / g.missed + g.missed);
+	g.missed = 4.0 * moved * g.reach;
 	return g;
 }
 
