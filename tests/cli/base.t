@@ -33,7 +33,7 @@ for radius in '0.55µm' '0.55μm'; do
 	is '0 ' "$? $(cat err)" "$radius, 94GHz and 1.5+0.1j"
 done
 xsect --particle 1.33 --wavelength 90GHz:94GHz:2GHz --radius 1mm | tabtxt --columns wavelength >out
-is '# wavelength:f64:um 3331.02731111111 3258.61367391304 3189.28146808511' "$(tr '\n' ' ' <out | sed 's/ $//')" 'a range of frequencies'
+is '# wavelength:f64:um 3331.027311111111 3258.6136739130434 3189.2814680851066' "$(tr '\n' ' ' <out | sed 's/ $//')" 'a range of frequencies'
 refused 'a radius in GHz' 'unknown unit' xsect --particle 1.33 --wavelength 1um --radius 94GHz
 refused 'a frequency in a wrong spelling' 'unknown unit \(nm, um, .*kHz' xsect --particle 1.33 --wavelength 94ghz --radius 1um
 refused 'no frequency' 'is not a frequency' xsect --particle 1.33 --wavelength 0GHz --radius 1um

@@ -29,6 +29,7 @@ static const struct input {
 	int flags;
 } sizes = { "sizes", GUARDED }, coeffs = { "coeffs", GUARDED }, xsect = { "xsect", GUARDED }, phase = { "phase", GUARDED },
   grains = { "grains", GUARDED }, medium = { "medium", GUARDED }, scene = { "scene", 0 },
+  csv = { "csv", 0 }, npy = { "npy", 0 },
   zip = { "zip.exr", 0 }, part = { "part.exr", 0 }, piz = { "piz.exr", 0 }, tiled = { "tiled.exr", 0 };
 
 #define LIGHT "--particle", "1.33", "--wavelength", "550nm"
@@ -42,6 +43,8 @@ static const struct reader {
 	const char *args[14];
 } readers[] = {
 	{ "tabtxt", &sizes, 1, { NULL } },
+	{ "txttab", &csv, 1, { "--units", "radius=um", "-o", "@out", NULL } },
+	{ "txttab", &npy, 3, { "-o", "@out", NULL } },
 	{ "tabcmp", &sizes, 13, { "-", "@sizes", NULL } },
 	{ "mie-coeffs", &sizes, 31, { LIGHT, NULL } },
 	{ "mie-phase", &sizes, 31, { LIGHT, "--angles", "3", NULL } },
@@ -132,6 +135,14 @@ static void make_inputs(void)
 	      ROWS{ 0.55, 0, M_1_PI / 4, 0.55, 90, M_1_PI / 4, 0.55, 180, M_1_PI / 4 });
 	table("grains", 4, WORDS{ "x", "m", "y", "m", "z", "m", "radius", "um" }, 2, ROWS{ 0, 0, 0, 1, 0.1, 0.2, 0.3, 3 });
 
+	char *path = in_folder("csv");
+	FILE *f = fopen(path, "w");
+	if (!f)
+		die(path, "cannot create:");
+	fprintf(f, "\xef\xbb\xbf\"id\",x , radius\r\n1,2, \"3.5\"\r\n2,-1e-3,nan\r\n");
+	fclose(f);
+	free(path);
+
 	struct exr image = { .width = 17, .height = 19, .history = xtext("vrender\n") };
 	static const char *const names[] = { "R", "G", "B", "count" };
 	for (int i = 0; i < 4; i++) {
@@ -140,7 +151,7 @@ static void make_inputs(void)
 		for (int p = 0; p < 17 * 19; p++)
 			data[p] = (float)(p * (i + 1) % 61) / 64;
 	}
-	char *path = in_folder("zip.exr");
+	path = in_folder("zip.exr");
 	exr_write((struct out[]){ out_open(path, 1) }, &image);
 	exr_free(&image);
 	free(path);
@@ -151,6 +162,7 @@ static void make_inputs(void)
 	free(path);
 	char *command = xtext("cd %s && oiiotool zip.exr --ch R,G,B -d half --compression piz -o piz.exr && "
 	    "oiiotool zip.exr --ch R,G,B -d float --compression pxr24 --tile 16 16 -o tiled.exr && "
+	    "\"$BIN/tabtxt\" --npy grains -o npy && "
 	    "{ ! [ -x \"$BIN/medium-bake\" ] || \"$BIN/medium-bake\" --xsect xsect --phase phase --box 1m,1m,1m -o medium grains; } && "
 	    "{ ! [ -x \"$BIN/vrender\" ] || \"$BIN/vrender\" --sample-range 0:2 --spectral -o part.exr scene; }", folder);
 	if (system(command))
@@ -236,7 +248,7 @@ static int share(const struct reader *r, const struct bytes *whole, size_t worke
 	memcpy(b.p, whole->p, whole->n);
 	for (b.n = 0; b.n < whole->n && wrong < 4; b.n += stride)
 		if (number++ % WORKERS == worker)
-			wrong += trial(r, &b, NULL, r->input == &scene, "cut at", b.n);
+			wrong += trial(r, &b, NULL, r->input == &scene || r->input == &csv, "cut at", b.n);
 	b.n = whole->n;
 	for (size_t bit = 0; bit < 8 * whole->n && wrong < 4; bit += stride)
 		if (number++ % WORKERS == worker) {
