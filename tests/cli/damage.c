@@ -45,6 +45,7 @@ static const struct reader {
 	{ "tabtxt", &sizes, 1, { NULL } },
 	{ "txttab", &csv, 1, { "--units", "radius=um", "-o", "@out", NULL } },
 	{ "txttab", &npy, 3, { "-o", "@out", NULL } },
+	{ "tabcat", &sizes, 31, { "-o", "@out", "@sizes", "-", NULL } },
 	{ "tabcmp", &sizes, 13, { "-", "@sizes", NULL } },
 	{ "mie-coeffs", &sizes, 31, { LIGHT, NULL } },
 	{ "mie-phase", &sizes, 31, { LIGHT, "--angles", "3", NULL } },

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Tables from elsewhere: CSV and NumPy become tables.
+# Tables from elsewhere: CSV and NumPy become tables. Tables end to end.
 # shellcheck source=tests/support/lib.sh
 . "$(dirname "$0")/../support/lib.sh"
 
@@ -110,4 +110,32 @@ bad 'a field of three' 'bad.csv: field p: is not one'
 npy "[('p', '<f8'), ('p', '<f8')]" '(2,)' >bad.csv
 bad 'a field twice' 'bad.csv: field p stands twice'
 is '' "$(ls bad.tab* 2>/dev/null)" 'none of these left a file'
+
+# tabcat.
+xsect --particle 1.33 --wavelength 650nm sizes.tab -o red.tab
+xsect --particle 1.34 --wavelength 450nm sizes.tab -o blue.tab
+tabcat red.tab blue.tab -o both.tab && tabtxt both.tab >out && { tabtxt red.tab; tabtxt blue.tab | sed 1d; } | cmp - out
+ok $? 'the rows of one table, then of the other'
+is "$(sed -n '/^cmd/p' sizes.tab; sed -n '/^cmd.xsect/p' red.tab blue.tab; echo 'cmd	tabcat')" "$(sed -n '/^cmd/p' both.tab)" \
+	'histories are joined, the common part once'
+tabtxt red.tab >red.txt
+tabcat red.tab - <blue.tab | cmp - both.tab && tabcat <red.tab | tabtxt | cmp - red.txt
+ok $? 'one of them may be standard input, or all there is'
+tabtxt --columns c_sca,c_ext,radius,wavelength blue.tab | txttab >turned.tab
+tabtxt --columns wavelength,radius,c_ext,c_sca red.tab | txttab | tabcat - turned.tab | tabtxt >out
+tabtxt --columns wavelength,radius,c_ext,c_sca both.tab | cmp - out
+ok $? 'columns are found by name'
+printf '# a:f32:1\n0.1\n' | txttab >single.tab
+printf '# a:f64:1\n0.1\n' | txttab >double.tab
+is '# a:f64:1 0.10000000149011612 0.1' "$(tabcat single.tab double.tab | tabtxt | tr '\n' ' ' | sed 's/ $//')" 'no value is rounded'
+is '# a:f32:1 0.1 0.1' "$(tabcat single.tab single.tab | tabtxt | tr '\n' ' ' | sed 's/ $//')" 'of one type it stays'
+printf '# a:f64:m\n0.1\n' | txttab >metre.tab
+printf '# a:f64:1\tb:f64:1\n0.1\t2\n' | txttab >more.tab
+refused 'another unit' "^tabcat: metre.tab: column a is in 'm'; '1' is needed" tabcat -o no.tab double.tab metre.tab
+refused 'a column more' '^tabcat: more.tab: has a column b, which double.tab has not' tabcat -o no.tab double.tab more.tab
+refused 'a column less' '^tabcat: double.tab: has no column b' tabcat -o no.tab more.tab double.tab
+refused 'standard input twice' 'only one' tabcat - - <red.tab
+head -c 300 blue.tab >cut.tab
+refused 'a table cut short' 'cut.tab: the table is cut short' tabcat -o no.tab red.tab cut.tab
+is '' "$(ls no.tab* 2>/dev/null)" 'and none of these left a file'
 done_testing
