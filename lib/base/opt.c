@@ -185,6 +185,7 @@ struct opt_line opt_parse(const struct opt_tool *tool, int argc, char **argv)
 {
 	static struct opt_line line;     /* reachable to the end: it is nobody's to free */
 	int only_operands = 0;
+	out_fill_standard();
 	signal(SIGPIPE, SIG_DFL);        /* a parent may have left it ignored; who is cut by head ends silently */
 	line = (struct opt_line){ 0, xalloc((size_t)argc + 1, sizeof(char *)), xtext("%s", "") };
 	quote(&line.history, program_invocation_short_name);

@@ -170,7 +170,6 @@ static void append(struct medium *m, int class, const struct curve *grid, const 
 	m->n_nodes += n;
 	m->theta = xgrow(m->theta, m->n_nodes, sizeof *m->theta);
 	m->p = xgrow(m->p, m->n_nodes * waves, sizeof *m->p);
-	m->cdf = xgrow(m->cdf, m->n_nodes * waves, sizeof *m->cdf);
 	for (size_t i = 0; i < n; i++)
 		m->theta[at + i] = (float)grid->theta[i];
 	for (size_t w = 0; w < waves; w++) {
@@ -179,7 +178,6 @@ static void append(struct medium *m, int class, const struct curve *grid, const 
 		double norm = phase_integral(grid->n, grid->theta, p);
 		for (size_t i = 0; i < n; i++)
 			m->p[(at + i) * waves + w] = (float)(p[i] / norm);
-		phase_cdf(grid->n, grid->theta, p, m->n_waves, m->cdf + at * waves + w);
 	}
 	m->node[2 * class] = (int32_t)at;
 	m->node[2 * class + 1] = grid->n;

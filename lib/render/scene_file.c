@@ -12,6 +12,7 @@
 
 #define SIDE_MAX 16384
 #define TEXT_MAX (1 << 20)
+#define KEYS_MAX 4096          /* libconfig looks for each key among those before */
 
 static void bad(const char *path, const config_setting_t *at, const char *fmt, ...) __attribute__((noreturn, format(printf, 3, 4)));
 static void bad(const char *path, const config_setting_t *at, const char *fmt, ...)
@@ -270,6 +271,10 @@ static char *whole(const char *path, FILE *f)
 		die(path, "is larger than %d bytes", TEXT_MAX);
 	if (strlen(text) != n)
 		die(path, "has a NUL byte");
+	int keys = 0;
+	for (const char *c = text; *(c += strcspn(c, "=:")); c++)
+		if (++keys > KEYS_MAX)
+			die(path, "has more than %d keys", KEYS_MAX);
 	for (const char *line = text; line; line = strchr(line, '\n') ? strchr(line, '\n') + 1 : NULL)
 		if (!strncmp(line + strspn(line, " \t"), "@include", 8))
 			die(path, "@include is not known in a scene");
