@@ -46,34 +46,7 @@ static int columns(const char *path, char *line, struct tab_col *cols)
 
 static int next_line(struct text_lines *t)
 {
-<<<<<<< HEAD
 	if (!text_lines_next(t))
-=======
-	char *c = line;
-	for (int i = 0; i < n; i++) {
-		char *tab = strchr(c, '\t'), *end;
-		if (!tab != (i == n - 1))
-			die(path, "line %ld: %s than %d columns", number, tab ? "more" : "fewer", n);
-		if (tab)
-			*tab = 0;
-		errno = 0;
-		out[i] = strtod(c, &end);
-		if (end == c || *end || *c == ' ' || strpbrk(c, "xX"))
-			die(path, "line %ld: column %s: '%s' is not a number", number, cols[i].name, c);
-		if (isinf(out[i]) && errno == ERANGE)
-			die(path, "line %ld: column %s: '%s' is too large", number, cols[i].name, c);
-		c = tab + 1;
-	}
-}
-
-/* The next line, without its end; 0 at the end of the file. */
-static int next_line(struct tab_text *t)
-{
-	ssize_t length = getline(&t->line, &t->room, t->f);
-	if (length < 0) {
-		if (!feof(t->f))           /* also where there is no memory for a line */
-			die(t->path, "cannot read:");
->>>>>>> main
 		return 0;
 	size_t length = strlen(t->line);
 	if (length && t->line[length - 1] == '\r')
