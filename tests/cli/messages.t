@@ -27,4 +27,42 @@ printf '# radius:f64:um\tweight:f64:1\n1\t1\n50\t1e-9\n' | txttab >few.tab
 printf '# radius:f64:um\tweight:f64:1\n1\t1\n50\t1e-2\n' | txttab >many.tab
 mean() { mie-phase --particle 1.33 --wavelength 550nm --average --angles 1001 "$1" -o mean.tab 2>err; wc -l <err; }
 is '0 1' "$(mean few.tab) $(mean many.tab)" 'in a mean'
+
+# A scene's error names its key.
+printf '# x:f32:m\ty:f32:m\tz:f32:m\tradius:f64:um\n0\t0\t0\t500\n1e-4\t0\t0\t500\n0.01\t0\t0\t500\n' | txttab >grains.tab
+mie-phase --particle 1.33 --wavelength 550nm --radius 500um --theta 0:180:0.01 | tabtxt --columns wavelength,theta,p | sed 's/[^	]*$/0.07957747154594767/; 1s/0.079.*/p:f64:sr^-1/' |
+	txttab >even.tab
+xsect --particle 1.33 --wavelength 550nm --radius 500um | medium-bake --xsect - --phase even.tab --box 2cm,2cm,2cm -o grains.medium grains.tab
+camera='camera = { position = [0.0, 0.0, 3.0]; target = [0.5, 0.0, 0.0]; fov = 34.0; resolution = [6, 4]; };'
+medium='medium = { file = "grains.medium"; };'
+wrong() { printf '%s\n' "$2" "$3" "$4" >wrong.scene; refused "$1" "^vrender: wrong.scene: line $5" vrender --samples 1 -o no.exr wrong.scene; }
+while IFS='|' read -r group value message; do
+	camera_is=$camera medium_is=$medium rest=
+	case $group in camera) camera_is=$value ;; medium) medium_is=$value ;; *) rest=$value ;; esac
+	wrong "$value" "$camera_is" "$medium_is" "$rest" "$message"
+done <<'END'
+camera|camera = { position = [0.0, 0.0, 3.0]; target = [0.0, 0.0, 0.0]; fov = "wide"; resolution = [6, 4]; };|1: camera.fov must be a number
+camera|camera = { position = [0.0, 0.0, 3.0]; target = [0.0, 0.0]; fov = 30; resolution = [6, 4]; };|1: camera.target must be 3 numbers
+camera|camera = { position = [0.0, 0.0, 1e10]; target = [0.0, 0.0, 0.0]; fov = 30; resolution = [6, 4]; };|1: camera.position 1e\+10 is out of range
+camera|camera = { position = [0.0, 0.0, 3.0]; target = [0.0, 0.0, 0.0]; fov = 200; resolution = [6, 4]; };|1: camera.fov 200 is out of range
+camera|camera = 3;|1: camera must be one group
+medium|medium = ( { file = "grains.medium"; }, { file = "grains.medium"; } );|2: medium must be one group \{ .. \} \(known there: file position\)
+medium|medium = { file = 3; };|2: medium.file must be a string
+medium|medium = { };|2: medium needs a key 'file'
+lights|lights = ( { type = "sun"; direction = [0, -1, 0]; irradiance = 1; }, { type = "sun"; direction = [0, -1, 0]; irradiance = "x"; } );|3: lights\[1\].irradiance must be a number
+lights|lights = ( { type = "sun"; direction = ( 0, -1, "down" ); irradiance = 1; } );|3: lights\[0\].direction\[2\] must be a number
+lights|lights = ( 3 );|3: lights\[0\] must be a group
+lights|lights = ( { type = "lamp"; } );|3: lights\[0\].type must be
+END
+
+# A camera inside a grain.
+see() { printf '%s\n' "camera = { position = [$1]; target = [0.5, 0.0, 0.0]; fov = 34.0; resolution = [6, 4]; };" "$medium" >in.scene
+	shift; vrender --samples 1 "$@" -o in.exr in.scene 2>err; }
+see '0.0101, 0.0, 0.0'
+is 'vrender: in.scene: camera.position is inside a particle of radius 500 um at [0.01, 0, 0], which is not seen as from inside' "$(cat err)" \
+	'a camera in a particle is told which'
+see '0.0, 0.0, 1e-4' --transport fat-ray
+is 1 "$(grep -c 'inside 2 particles, one of them of radius 500 um at' err)" 'or in how many'
+see '0.0, 0.0, 0.0006' && [ ! -s err ] && see '0.0, 0.0, 1e-4' --transport grid
+is '' "$(cat err)" 'outside, and where particles are not seen, nothing is told'
 done_testing
