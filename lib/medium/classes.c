@@ -116,6 +116,8 @@ int classes_find(const struct medium *m, const struct tab *t, double radius)
 	return class;
 }
 
+int classes_exact(const struct medium *m, int class, double radius) { return same(m->radius[class], radius); }
+
 /* -------------------------------------------------------------------- phase functions */
 
 /* A phase function as tabulated: theta in rad. */

@@ -65,4 +65,48 @@ see '0.0, 0.0, 1e-4' --transport fat-ray
 is 1 "$(grep -c 'inside 2 particles, one of them of radius 500 um at' err)" 'or in how many'
 see '0.0, 0.0, 0.0006' && [ ! -s err ] && see '0.0, 0.0, 1e-4' --transport grid
 is '' "$(cat err)" 'outside, and where particles are not seen, nothing is told'
+
+# Tables that do not belong together.
+a='lognormal --median 5um --gsd 1.3'
+b='lognormal --gsd 1.3 --median 5.2um'
+# shellcheck disable=SC2086
+{ psd $a -o a.psd; psd $a --classes 7 -o a7.psd; psd $b -o b.psd; psd lognormal --gsd 1.3 --median 5000nm -o a.nm.psd; }
+for x in a b a.nm; do
+	xsect --particle water --wavelength 550nm $x.psd -o $x.xsect
+	mie-phase --particle water --wavelength 550nm --average $x.psd -o $x.phase
+	particles --psd $x.psd --count 100 --box 1cm,1cm,1cm -o $x.grains
+done
+mie-phase --particle water --wavelength 550nm a.psd -o a.phases
+xsect --particle ice --wavelength 550nm a.psd -o ice.xsect
+goa-phase --host 1.0 --particle water --wavelength 550nm --average a.psd -o goa.phase
+tabtxt --columns radius,weight a.psd | txttab -o own.psd
+tabtxt --columns wavelength,theta,p b.phase | txttab -o own.phase
+baked() { medium-bake -o baked.medium "$@" 2>err; echo "$? $(cat err)"; }    # its status and what it said
+fog() { baked --concentration 1/cm3 --box 1cm,1cm,1cm "$@"; }
+refused 'cross sections of another distribution' '^medium-bake: b.xsect: is of other radii than --psd, and not made from it \(psd --gsd 1.3 --median 5um lognormal\)' \
+	medium-bake --psd a.psd --xsect b.xsect --phase a.phase --concentration 1/cm3 --box 1cm,1cm,1cm -o no.medium
+is '0 medium-bake: b.phase: is of another size distribution than what is baked, it seems (psd --gsd 1.3 --median 5um lognormal)' \
+	"$(fog --psd a.psd --xsect a.xsect --phase b.phase)" 'a mean phase function of another: a warning, for it has no radii'
+is '0 medium-bake: b.xsect: is of another size distribution than the particles, it seems (psd --gsd 1.3 --median 5um lognormal)' \
+	"$(baked --xsect b.xsect --phase b.phase a.grains)" 'particles of another: likewise, and once'
+is '0 medium-bake: a.phase: is of other particles than the cross sections, it seems (--particle ice)' \
+	"$(fog --psd a.psd --xsect ice.xsect --phase a.phase)" 'ice and water'
+while read -r sizes cross phase; do
+	is '0 ' "$(fog --psd $sizes.psd --xsect $cross.xsect --phase $phase)" "nothing against $sizes, $cross, $phase"
+done <<'END'
+a a a.phase
+a a a.phases
+a a goa.phase
+a.nm a a.phase
+a a own.phase
+own a a.phase
+own b b.phase
+a7 a a.phase
+END
+is '0 ' "$(baked --xsect a.xsect --phase a.phase a.grains)" 'nothing against particles'
+# Two kinds of particles, as tabcat joins them.
+tabcat a.grains b.grains -o both.grains
+tabcat a.xsect b.xsect -o both.xsect
+is '0 ' "$(baked --xsect both.xsect --phase own.phase both.grains)" 'nor two kinds of them'
+is '0 ' "$(baked --xsect both.xsect --phase own.phase a.grains)" 'nor one of the two'
 done_testing
