@@ -118,7 +118,7 @@ is '' "$(cat err)" 'no progress where stderr is no terminal'
 scene typo.scene white.medium 8 'lihgts = ( );'
 refused 'a misspelt key' "typo.scene: line 3: unknown key 'lihgts'" vrender typo.scene -o typo.exr
 scene bad.scene white.medium 8 'ground = { height = "low"; albedo = 0.5; };'
-refused 'a value of the wrong type' 'line 3: must be a number' vrender bad.scene -o typo.exr
+refused 'a value of the wrong type' 'line 3: ground.height must be a number' vrender bad.scene -o typo.exr
 scene bad.scene nowhere.medium 8 ''
 refused 'a medium that is not there' 'nowhere.medium: cannot open' vrender bad.scene -o typo.exr
 scene white.scene white.medium 8 ''
