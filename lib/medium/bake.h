@@ -14,7 +14,7 @@ void bake_density(const char *path, int longest, struct medium *m);
 char *bake_psd(const char *path, double concentration, struct medium *m, int *exact);
 
 /* bake_particles - particles from a table of x, y, z (m) and radius (um), path NULL: standard input. bounded: the shape is
- * given, and none may lie outside; else it becomes the bounding box about the origin. Returns the table's history. */
+ * given, about the origin, and none may lie outside; else it becomes the bounding box, and the centre its middle. Returns the table's history. */
 char *bake_particles(const char *path, int bounded, struct medium *m);
 
 #endif
