@@ -4,6 +4,7 @@
 #include "base/out.h"
 #include "format/tab.h"
 #include "medium/medium_file.h"
+#include "medium/particle_grid.h"
 #include "render/backend.h"
 #include "render/image.h"
 
@@ -70,6 +71,25 @@ static void render(const struct setup *setup, struct film *film, struct cl *cl, 
 	}
 }
 
+/* Particles are not there to be looked at from inside: a camera in one is likely to be misplaced. */
+static void check_camera(const char *path, const struct scenefile *f, const struct medium *m)
+{
+	double at[3];
+	size_t one = 0;
+	for (int a = 0; a < 3; a++)
+		at[a] = f->position[a] - f->medium_position[a];
+	size_t n = particle_grid_around(m, at, &one);
+	if (!n)
+		return;
+	const float *p = m->particle + 4 * one;
+	int32_t class;
+	memcpy(&class, p + 3, sizeof class);
+	char *others = n > 1 ? xtext("%zu particles, one of them", n) : xtext("a particle");
+	warn(path, "camera.position is inside %s of radius %g um at [%g, %g, %g], which is not seen as from inside", others, m->radius[class],
+	     p[0] + f->medium_position[0], p[1] + f->medium_position[1], p[2] + f->medium_position[2]);
+	free(others);
+}
+
 int main(int argc, char **argv)
 {
 	const char *output = NULL, *part = NULL;
@@ -131,6 +151,8 @@ int main(int argc, char **argv)
 		die("--spectral", "the medium has %d wavelengths; an image has room for %d", medium->n_waves, IMAGE_WAVES);
 	const struct render_options options = { .transport = transport, .attenuation = attenuation, .branches = (int)branches,
 		.spectral = spectral, .seed = (uint32)seed };
+	if (transport == TRANSPORT_EXPLICIT || transport == TRANSPORT_FAT_RAY)
+		check_camera(path, &file, medium);
 	setup_make(&setup, &file, medium, &options);
 	film_make(&film, &setup.scene);
 	if (verbose)

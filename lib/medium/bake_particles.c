@@ -2,6 +2,7 @@
 
 #include "base/die.h"
 #include "format/columns.h"
+#include "format/limits.h"
 #include "medium/classes.h"
 
 #include <math.h>
@@ -28,8 +29,8 @@ char *bake_particles(const char *path, int bounded, struct medium *m)
 		double q[3] = { row[x], row[y], row[z] };
 		int32_t class = classes_find(m, t, row[radius]);
 		for (int a = 0; a < 3; a++) {
-			if (!(fabs(q[a]) < 1e9))
-				die(tab_path(t), "row %llu: a position is not within 1e9 m", number);
+			if (!(fabs(q[a]) <= MEDIUM_REACH / 2))
+				die(tab_path(t), "row %llu: a position is not within %g m", number, MEDIUM_REACH / 2);
 			low[a] = fmin(low[a], q[a]);
 			high[a] = fmax(high[a], q[a]);
 		}
@@ -43,8 +44,8 @@ char *bake_particles(const char *path, int bounded, struct medium *m)
 		memcpy(at[m->n_particles], q, sizeof q);
 		memcpy(&m->particle[4 * m->n_particles + 3], &class, 4);
 		m->count[class]++;
-		if (++m->n_particles > INT32_MAX / 4)
-			die(tab_path(t), "more than %d particles", INT32_MAX / 4);
+		if (++m->n_particles > MEDIUM_PARTICLES_MOST)
+			die(tab_path(t), "more than %d particles", MEDIUM_PARTICLES_MOST);
 	}
 	if (!m->n_particles)
 		die(tab_path(t), "has no rows");

@@ -25,7 +25,6 @@ struct medium {
 	int32_t *node;                  /* [class][2] first node and number of nodes; class n_classes is the whole medium's mixture */
 	float *theta;                   /* [node] rad */
 	float *p;                       /* [node][wave] sr^-1, normalised */
-	uint32_t *cdf;                  /* [node][wave], see phase_cdf */
 	size_t n_particles;             /* of MEDIUM_PARTICLES, as is all to voxel_count */
 	float *particle;                /* [particle][4] x y z m, the bits of an int32 class; in the order of the cells */
 	int32_t cells[3];               /* the grid over the centres */

@@ -2,6 +2,8 @@
 
 #include "base/die.h"
 #include "base/out.h"
+#include "format/limits.h"
+#include "medium/medium_check.h"
 #include "medium/medium_layout.h"
 
 #include <stdio.h>
@@ -48,14 +50,19 @@ static void header(struct sink *s, const struct medium *m, const uint64_t *n)
 	xappend(&text, "voxels\t%d\t%d\t%d\t%.17g\t%.17g\n", m->voxels[0], m->voxels[1], m->voxels[2], m->voxel, m->matter);
 	for (int i = 0; i < N_SECTIONS; i++)
 		xappend(&text, "section\t%s\t%llu\n", medium_layout[i].name, (unsigned long long)n[i]);
+	xappend(&text, "\n");
+	if (strlen(text) > MEDIUM_HEADER_MAX)
+		die(s->path, "the commands that made it are too long for a medium's header (%u bytes)", MEDIUM_HEADER_MAX);
 	emit(s, text, strlen(text));
-	emit(s, "\n", 1);
 	free(history);
 	free(text);
 }
 
 void medium_file_write(const char *path, const struct medium *m)
 {
+	const char *wrong = medium_check(m);
+	if (wrong)
+		die(path, "is not written: %s", wrong);
 	struct out out = out_open(path, 1);
 	struct sink s = { out.f, path, 0, (uint32_t)crc32(0, NULL, 0) };
 	uint64_t n[N_SECTIONS];
