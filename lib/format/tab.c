@@ -36,14 +36,18 @@ const char *tab_col_valid(const struct tab_col *col)
 char *tab_join(const char *first, ...)
 {
 	char *kept = xtext("\n");
+	int lines = 0;
 	va_list args;
 	va_start(args, first);
 	for (const char *text = first; text; text = va_arg(args, const char *)) {
 		char *copy = xtext("%s", text), *save = NULL;
 		for (char *line = strtok_r(copy, "\n", &save); line; line = strtok_r(NULL, "\n", &save)) {
 			char *framed = xtext("\n%s\n", line);
-			if (!strstr(kept, framed))
+			if (!strstr(kept, framed)) {
+				if (++lines > HISTORY_LINES)
+					die("history", "is of more than %d commands", HISTORY_LINES);
 				xappend(&kept, "%s\n", line);
+			}
 			free(framed);
 		}
 		free(copy);

@@ -47,7 +47,7 @@ uint64_t tab_row(const struct tab *t);
 void tab_close(struct tab *t);
 
 /* tab_join - the lines of several histories (the last argument is NULL), each once, each ending in a newline: tables that meet
- * again share their first programs. */
+ * again share their first programs. Dies where there are more than HISTORY_LINES. */
 char *tab_join(const char *first, ...) __attribute__((sentinel));
 
 struct tab_out;

@@ -8,7 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define HOPELESS 10000000        /* points tried without one kept */
+#define TRIAL 10000000           /* points after which it is told whether it ends: */
+#define SPARSE 1e-5              /* a share of them that is kept */
 
 enum { PLACES, CLASSES, NUMBER };        /* streams of random numbers */
 
@@ -72,19 +73,31 @@ static double inside(double v, double half)
 	return fabs((double)f) <= half ? f : nextafterf(f, 0);
 }
 
-/* Densities over their maximum: the chance that a point is kept. */
-static double scale(struct npy_grid *g, const char *name)
+/* How far from 0 the part of [-1, 1] begins in which voxel i of n counts, being interpolated. */
+static double nearest(size_t i, size_t n)
 {
-	double top = 0, sum = 0;
-	size_t n = g->nx * g->ny * g->nz;
-	for (size_t i = 0; i < n; i++) {
-		top = fmax(top, g->v[i]);
-		sum += g->v[i];
-	}
+	double low = (2 * (double)i - 1) / (double)n - 1, high = (2 * (double)i + 3) / (double)n - 1;
+	return fmax(fmax(low, -high), 0);
+}
+
+/* The largest density that can be met in the box, or in the sphere in it: densities over that are the chance that a point is kept. */
+static double scale(const struct npy_grid *g, const char *name, int round)
+{
+	double top = 0, sum = 0, n = 0;
+	for (size_t z = 0, i = 0; z < g->nz; z++)
+		for (size_t y = 0; y < g->ny; y++)
+			for (size_t x = 0; x < g->nx; x++, i++) {
+				if (round && pow(nearest(x, g->nx), 2) + pow(nearest(y, g->ny), 2) + pow(nearest(z, g->nz), 2) > 1)
+					continue;
+				top = fmax(top, g->v[i]);
+				sum += g->v[i];
+				n++;
+			}
+	const char *where = round ? "in the sphere" : "everywhere";
 	if (!(top > 0))
-		die(name, "is 0 everywhere");
-	if (sum / (double)n < 1e-4 * top)
-		die(name, "has a mean less than 1e-4 of its maximum; crop it, or raise the rest");
+		die(name, "is 0 %s", where);
+	if (sum / n < 1e-4 * top)
+		die(name, "has a mean less than 1e-4 of its maximum%s; crop it, or raise the rest", round ? " in the sphere" : "");
 	return top;
 }
 
@@ -97,7 +110,7 @@ struct placement *placement_new(const struct placement_request *r, struct tab *s
 	p->top = 1;
 	if (density) {
 		p->grid = npy_density(density);
-		p->top = scale(&p->grid, density);
+		p->top = scale(&p->grid, density, r->round);
 	}
 	p->tries = INFINITY;
 	p->count = r->count;
@@ -123,8 +136,8 @@ int placement_next(struct placement *p, struct placed *out)
 	for (uint64_t i = p->tried; (double)i < tries; i++) {
 		uint32_t w[4];
 		double u[4];
-		if (i == HOPELESS && !p->kept && tries == INFINITY)
-			die(p->density, "is 0 almost everywhere in the sphere");
+		if (i == TRIAL && (double)p->kept < SPARSE * TRIAL && p->density)
+			die(p->density, "keeps fewer than %g of all points%s; crop it, or raise the rest", SPARSE, round ? " in the sphere" : "");
 		rng_block(seed, i, PLACES, w);
 		for (int j = 0; j < 4; j++)
 			u[j] = rng_unit32(w[j]);

@@ -255,18 +255,19 @@ static void sums_of_one(const struct mie_row *r, struct mie_sums *sums)
 /* pi_l is carried with the difference v_l = pi_l - pi_{l-1} (after Wiscombe 1979, with mu = 1 - c put in), so that c counts with all its
  * digits: v_{l+1} = ((l+1) v_l - (2l+1) c pi_l)/l, (pi_l + tau_l)/l = (l+1)/l v_l - c pi_l. Of unroll vectors of angles, sums from k[l][0]
  * on, and twice as many from there if both. */
-INLINE void sum_waves(int both, int unroll, int n, const struct mie_factors *restrict k, int side, const double *c_,
-                      double (*out)[MIE_ANGLES])
+INLINE void sum_waves(int both, int unroll, int n, const struct mie_factors *restrict k, int side, const double *c_, int first,
+                      struct mie_angles *restrict a)
 {
 	vec c[UNROLL], p[UNROLL], v[UNROLL], sum[UNROLL][8];
 	for (int u = 0; u < unroll; u++) {
-		p[u] = v[u] = each(1);
+		memcpy(&p[u], &a->pi[first + u * LANES], sizeof(vec));
+		memcpy(&v[u], &a->rise[first + u * LANES], sizeof(vec));
 		for (int i = 0; i < (both ? 8 : 4); i++)
-			sum[u][i] = each(0);
+			memcpy(&sum[u][i], &a->sum[i][first + u * LANES], sizeof(vec));
 	}
 	for (int i = 0; i < unroll * LANES; i++)
-		LANE(c, i) = c_[i];
-	for (int l = 1; l <= n; l++) {
+		LANE(c, i) = c_[first + i];
+	for (int l = 0; l < n; l++) {
 		const double rise = k[l].rise, twice = k[l].twice, *f = k[l].side[side];
 #pragma GCC unroll 4
 		for (int u = 0; u < unroll; u++) {
@@ -285,22 +286,22 @@ INLINE void sum_waves(int both, int unroll, int n, const struct mie_factors *res
 			p[u] += v[u];
 		}
 	}
-	for (int u = 0; u < unroll; u++)
-		for (int j = 0; j < (both ? 8 : 4); j++)
-			memcpy(&out[j][u * LANES], &sum[u][j], sizeof(vec));
+	for (int u = 0; u < unroll; u++) {
+		memcpy(&a->pi[first + u * LANES], &p[u], sizeof(vec));
+		memcpy(&a->rise[first + u * LANES], &v[u], sizeof(vec));
+		for (int i = 0; i < (both ? 8 : 4); i++)
+			memcpy(&a->sum[i][first + u * LANES], &sum[u][i], sizeof(vec));
+	}
 }
 
-static void angles(int n, const struct mie_factors *k, int sides, const double *c, double (*out)[MIE_ANGLES])
+static void angles(int n, const struct mie_factors *k, int sides, const double *c, struct mie_angles *a)
 {
-	double part[8][MIE_ANGLES];
 	int both = sides == MIE_PAIR, width = LANES * (both ? UNROLL / 2 : UNROLL);
 	for (int first = 0; first < MIE_ANGLES; first += width) {
 		if (both)
-			sum_waves(1, UNROLL / 2, n, k, 0, c + first, part);
+			sum_waves(1, UNROLL / 2, n, k, 0, c, first, a);
 		else
-			sum_waves(0, UNROLL, n, k, sides == MIE_BEHIND, c + first, part);
-		for (int j = 0; j < (both ? 8 : 4); j++)
-			memcpy(out[j] + first, part[j], (size_t)width * sizeof(double));
+			sum_waves(0, UNROLL, n, k, sides == MIE_BEHIND, c, first, a);
 	}
 }
 

@@ -70,6 +70,12 @@ struct mie_factors {
 };
 enum { MIE_FRONT = 1, MIE_BEHIND = 2, MIE_PAIR = 3 };
 
+/* Sums at MIE_ANGLES angles over the orders so far, and pi_l of the next with its difference from the one before. */
+struct mie_angles {
+	double pi[MIE_ANGLES], rise[MIE_ANGLES];
+	double sum[8][MIE_ANGLES];
+};
+
 struct mie_lanes {
 	void (*block)(struct mie_block *b);
 	/* coefficients of a row, from psi .. im */
@@ -77,9 +83,10 @@ struct mie_lanes {
 	/* sums += those of a row, from its weighted coefficients, in order: the same bits as in a block */
 	void (*sums)(const struct mie_row *r, struct mie_sums *sums);
 	/* Sums over l of s_l (pi_l + tau_l)/l and d_l (pi_l - tau_l)/l at MIE_ANGLES angles in [0, 90] deg given by c = 1 - cos theta.
-	 * Given:    k[n+1], k[0] unused; sides: with the factors for angles in front, for those behind, or first with these, then with those
-	 * Returned: out[4, or 8 of a pair]: real and imaginary part of the one, then of the other sum */
-	void (*angles)(int n, const struct mie_factors *k, int sides, const double *c, double (*out)[MIE_ANGLES]);
+	 * Given:    k[n], the next orders; sides: with the factors for angles in front, for those behind, or first with these, then with those;
+	 *           a, before the first order pi and rise are 1, sums 0
+	 * Returned: a->sum[4, or 8 of a pair]: real and imaginary part of the one, then of the other sum */
+	void (*angles)(int n, const struct mie_factors *k, int sides, const double *c, struct mie_angles *a);
 };
 
 CPU_DECLARE(const struct mie_lanes, mie_lanes);
