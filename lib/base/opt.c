@@ -95,10 +95,10 @@ static const char *parse(const struct opt *o, const char *text, const double **v
 	case OPT_BOX:
 		*n = 3;
 		return box(text, o->dst);
-	case OPT_UMS:        bad = unit_lengths(text, -6, 0, o->dst); break;
-	case OPT_UM_STEPS:   bad = unit_lengths(text, -6, 1, o->dst); break;
-	case OPT_REALS:      bad = unit_reals(text, 0, o->dst); break;
-	case OPT_REAL_STEPS: bad = unit_reals(text, 1, o->dst); break;
+	case OPT_UMS:         bad = unit_lengths(text, -6, 0, o->dst); break;
+	case OPT_WAVELENGTHS: bad = unit_wavelengths(text, -6, o->dst); break;
+	case OPT_REALS:       bad = unit_reals(text, 0, o->dst); break;
+	case OPT_REAL_STEPS:  bad = unit_reals(text, 1, o->dst); break;
 	}
 	*values = ((struct reals *)o->dst)->v;
 	*n = ((struct reals *)o->dst)->n;
@@ -127,7 +127,7 @@ static void set(const struct opt *o, const char *text)
 	for (size_t i = 0; i < n && o->lo != o->hi; i++)
 		if (!(v[i] >= o->lo && v[i] <= o->hi)) {
 			range(o, span, sizeof span);
-			const char *unit = o->type == OPT_UM || o->type == OPT_UMS || o->type == OPT_UM_STEPS ? " um"
+			const char *unit = o->type == OPT_UM || o->type == OPT_UMS || o->type == OPT_WAVELENGTHS ? " um"
 			    : o->type == OPT_M || o->type == OPT_BOX ? " m" : "";
 			die(o->name, "'%s' is out of range: %s%s", text, span, unit);
 		}

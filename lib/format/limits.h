@@ -17,7 +17,7 @@
 #define TAB_BLOCK_MAX (1u << 20)        /* bytes of a block of rows: it is held whole, and checked before its rows are used */
 
 /* OpenEXR images. */
-#define EXR_CHANNELS 1024               /* each has room in struct exr; a spectral part has three a wavelength */
+#define EXR_CHANNELS 2048               /* each has room in struct exr; a spectral part has six a wavelength */
 #define EXR_NAME 64                     /* bytes of a channel's name, with the final 0 */
 #define EXR_SIDE_MAX 32768              /* pixels along a side: bytes of a line fit an int at any number of channels */
 #define EXR_TILE_MAX 4096               /* pixels along a tile's side */

@@ -116,6 +116,8 @@ int classes_find(const struct medium *m, const struct tab *t, double radius)
 	return class;
 }
 
+int classes_exact(const struct medium *m, int class, double radius) { return same(m->radius[class], radius); }
+
 /* -------------------------------------------------------------------- phase functions */
 
 /* A phase function as tabulated: theta in rad. */
@@ -202,7 +204,8 @@ static void curve_check(const struct tab *t, struct curve *c, double wavelength,
 		grid.p[i] = phase_at(c->n, c->theta, c->p, grid.theta[i]);
 	double norm = phase_integral(grid.n, grid.theta, grid.p);
 	if (!(fabs(norm - 1) <= 0.01))
-		die(tab_path(t), "%s: the integral over the sphere is %.4f, more than 1 %% off 1", what, norm);
+		die(tab_path(t), "%s: the integral over the sphere is %.4f, more than 1 %% off 1: its angles are too few for its peaks "
+		    "(leave out --angles, or take more), or p is not normalised", what, norm);
 	for (int i = 0; i < c->n; i++)
 		c->p[i] /= norm;
 	free(grid.theta);

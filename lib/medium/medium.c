@@ -16,6 +16,14 @@ double medium_depth(const struct medium *m)
 	return c * 1e-12 / medium_volume(m) * 2 * fmin(m->half[0], fmin(m->half[1], m->half[2]));
 }
 
+int medium_even(const struct medium *m)
+{
+	int even = m->kind == MEDIUM_DENSITY;
+	for (size_t i = 1; i < m->n_density && even; i++)
+		even = m->density[i] == m->density[0];
+	return even;
+}
+
 void medium_free(struct medium *m)
 {
 	void *const own[] = { m->history, m->wavelength, m->radius, m->count, m->c_ext, m->c_sca, m->node, m->theta, m->p,

@@ -13,7 +13,8 @@ enum medium_kind { MEDIUM_PARTICLES, MEDIUM_DENSITY };
 struct medium {
 	enum medium_kind kind;
 	char *history;                  /* cmd lines as in tab(5) */
-	int round;                      /* a sphere of radius half[0], else a box; centred on the origin */
+	double centre[3];               /* m, where the user's coordinates have the middle; all that follows is relative to it */
+	int round;                      /* a sphere of radius half[0], else a box */
 	double half[3];                 /* m */
 	int n_waves, n_classes;
 	double *wavelength;             /* [wave] um, ascending */
@@ -44,6 +45,9 @@ double medium_volume(const struct medium *m);
 
 /* medium_depth - mean optical depth along the shortest axis at the first wavelength. */
 double medium_depth(const struct medium *m);
+
+/* medium_even - is the density the same everywhere? Not of particles. */
+int medium_even(const struct medium *m);
 
 /* medium_free - one whose arrays are its own: a baked one, not one of a file (medium_file_close). */
 void medium_free(struct medium *m);

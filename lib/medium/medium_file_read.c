@@ -83,6 +83,18 @@ static void shape(const char *path, struct medium *m, char *line)
 	}
 }
 
+static void centre(const char *path, struct medium *m, char *line)
+{
+	char *f[4], *end;
+	if (fields(line, f, 4) != 4)
+		damaged(path, "bad centre line");
+	for (int a = 0; a < 3; a++) {
+		m->centre[a] = strtod(f[1 + a], &end);
+		if (end == f[1 + a] || *end || !(fabs(m->centre[a]) <= 1e9))
+			damaged(path, "bad centre line");
+	}
+}
+
 static void grid(const char *path, struct medium *m, char *line)
 {
 	char *f[10];
@@ -159,6 +171,8 @@ static void header(const char *path, struct medium_file *f, uint64_t *n)
 		} else if (!strncmp(line, "shape\t", 6)) {
 			shape(path, m, line);
 			lines |= 1;
+		} else if (!strncmp(line, "centre\t", 7)) {
+			centre(path, m, line);
 		} else if (!strncmp(line, "grid\t", 5)) {
 			grid(path, m, line);
 			lines |= 2;

@@ -43,6 +43,8 @@ static void header(struct sink *s, const struct medium *m, const uint64_t *n)
 	for (char *line = strtok_r(history, "\n", &save); line; line = strtok_r(NULL, "\n", &save))
 		xappend(&text, "cmd\t%s\n", line);
 	xappend(&text, "shape\t%s\t%.17g\t%.17g\t%.17g\n", m->round ? "sphere" : "box", m->half[0], m->half[1], m->half[2]);
+	if (m->centre[0] != 0 || m->centre[1] != 0 || m->centre[2] != 0)
+		xappend(&text, "centre\t%.17g\t%.17g\t%.17g\n", m->centre[0], m->centre[1], m->centre[2]);
 	xappend(&text, "grid\t%d\t%d\t%d\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\n", m->cells[0], m->cells[1], m->cells[2],
 	        m->low[0], m->low[1], m->low[2], m->cell[0], m->cell[1], m->cell[2]);
 	xappend(&text, "voxels\t%d\t%d\t%d\t%.17g\t%.17g\n", m->voxels[0], m->voxels[1], m->voxels[2], m->voxel, m->matter);

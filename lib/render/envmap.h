@@ -18,4 +18,7 @@ void envmap_read(const char *path, const double *scale, struct envmap *m);
  * probability a multiple of 2^-31. Returns their number, 0 for a map that is black. */
 size_t envmap_cdf(const struct envmap *m, uint32 **cdf);
 
+/* envmap_fluence - the luminance of its light from all sides: the integral over the sphere. */
+double envmap_fluence(const struct envmap *m);
+
 #endif

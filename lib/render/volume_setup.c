@@ -78,11 +78,11 @@ static void phases(struct setup *u, const struct medium *m, int suns)
 }
 
 /* Fat rays have the area of a pixel's footprint at the medium's nearest depth (eq 23 with kappa 1), and no less than any particle. */
-static float fat_area(const struct scenefile *f, const struct medium *m, float largest)
+static float fat_area(const struct scenefile *f, const struct medium *m, const double *origin, float largest)
 {
 	double d2 = 0, pixel = 2 * tan(f->fov * M_PI / 360) / fmax(f->width, f->height), eye2 = 0;
 	for (int a = 0; a < 3; a++) {
-		double eye = f->position[a] - f->medium_position[a];
+		double eye = f->position[a] - origin[a];
 		eye2 += eye * eye;
 		d2 += pow(fmax(0, fabs(eye) - m->half[a]), 2);
 	}
@@ -96,7 +96,7 @@ static void particles(struct setup *u, const struct scenefile *f, const struct m
 {
 	struct volume *v = &u->scene.volume;
 	double span = 0;           /* of the grid's coordinates */
-	v->fat_area = fat_area(f, m, v->largest);
+	v->fat_area = fat_area(f, m, u->origin, v->largest);
 	v->query_radius2 = v->transport == TRANSPORT_EXPLICIT ? v->largest : v->fat_area / (float)M_PI;
 	for (int a = 0; a < 3; a++) {
 		double high = m->low[a] + (double)m->cells[a] * m->cell[a];

@@ -18,6 +18,7 @@
 #define CHUNK_X 20000             /* refined together: sum of size parameters, at most, but for one particle's */
 #define BLOCK 4096                /* angles of a row of waves, handed on together */
 #define TOGETHER 64               /* rows of which the elements are found together */
+#define PEAK 0.69                 /* x times the distance of equal angles, rad: there the forward peak puts p's integral off by 1 % */
 #define OWN (5 + PHASE_ELEMENTS)  /* columns: theta, amplitudes, elements */
 
 struct batch {
@@ -228,6 +229,28 @@ static void each(struct job *j, const char *output, const char *command)
 	free(b.x_grid);
 }
 
+/* What equal angles make of the integral of p over the sphere, as linear between them: 1 + this. A large sphere diffracts half of
+ * what it scatters, into p ~ (2 J1(z)/z)^2 with z = x theta; at z = 0, h, 2h .. its trapezoids hold h^2/6 + sum 4 J1(i h)^2 / i in
+ * place of 2. About h^2/48 while h is small. */
+static double peak_excess(double h)
+{
+	double sum = h * h / 6;
+	int i = 1;
+	for (; i <= 1000 || (i <= 1000000 && i * h < 1000); i++)
+		sum += 4 * j1(i * h) * j1(i * h) / i;
+	return (sum + 4 / (M_PI * h * i) - 2) / 4;    /* beyond, J1(z)^2 is 1/(pi z) in the mean */
+}
+
+/* Equal angles that are too few for the forward peak are told once. */
+static void check_peak(const struct phase_options *o, const struct spheres *in)
+{
+	double x = spheres_extent(in, o->average), h = x * M_PI / (double)(o->angles - 1);
+	if (h <= PEAK)
+		return;
+	warn("--angles", "%lld are too few for the forward peak of x = %.4g%s: taken as linear between them, p integrates to about %.3g, not 1; "
+	     "take %.0f or more, or leave --angles out", o->angles, x, o->average ? ", in the mean" : "", 1 + peak_excess(h), ceil(M_PI * x / PEAK) + 1);
+}
+
 void phase_table(const struct phase_options *o, struct spheres *in, const struct phase_model *model, const char *output,
                  const char *command)
 {
@@ -237,5 +260,7 @@ void phase_table(const struct phase_options *o, struct spheres *in, const struct
 		ensemble_average_table(o, in, model, j.n, j.theta, output, command);
 	else
 		each(&j, output, command);
+	if (o->angles)
+		check_peak(o, in);
 	free(j.theta);
 }

@@ -30,6 +30,7 @@ static const struct input {
 	size_t checksum;         /* of all before it, so many bytes from the end: no damage may go unseen; 0: there is none */
 } sizes = { "sizes", 4 }, coeffs = { "coeffs", 4 }, xsect = { "xsect", 4 }, phase = { "phase", 4 },
   grains = { "grains", 4 }, medium = { "medium", 8 }, field = { "field", 8 }, scene = { "scene", 0 },
+  csv = { "csv", 0 }, npy = { "npy", 0 },
   zip = { "zip.exr", 0 }, part = { "part.exr", 0 }, piz = { "piz.exr", 0 }, tiled = { "tiled.exr", 0 };
 
 #define LIGHT "--particle", "1.33", "--wavelength", "550nm"
@@ -43,11 +44,14 @@ static const struct reader {
 	const char *args[14];
 } readers[] = {
 	{ "tabtxt", &sizes, 1, { NULL } },
+	{ "txttab", &csv, 1, { "--units", "radius=um", "-o", "@out", NULL } },
+	{ "txttab", &npy, 3, { "-o", "@out", NULL } },
+	{ "tabcat", &sizes, 31, { "-o", "@out", "@sizes", "-", NULL } },
 	{ "tabcmp", &sizes, 13, { "-", "@sizes", NULL } },
 	{ "mie-coeffs", &sizes, 31, { LIGHT, NULL } },
-	{ "mie-phase", &sizes, 31, { LIGHT, "--angles", "3", NULL } },
-	{ "mie-phase", &coeffs, 31, { "--angles", "3", NULL } },
-	{ "goa-phase", &sizes, 31, { LIGHT, "--angles", "3", NULL } },
+	{ "mie-phase", &sizes, 31, { LIGHT, "--theta", "0:180:90", NULL } },
+	{ "mie-phase", &coeffs, 31, { "--theta", "0:180:90", NULL } },
+	{ "goa-phase", &sizes, 31, { LIGHT, "--theta", "0:180:90", NULL } },
 	{ "xsect", &sizes, 31, { LIGHT, NULL } },
 	{ "xsect", &coeffs, 31, { NULL } },
 	{ "particles", &sizes, 31, { "--psd", "-", "--count", "3", "--box", "1m,1m,1m", NULL } },
@@ -135,6 +139,14 @@ static void make_inputs(void)
 	      ROWS{ 0.55, 0, M_1_PI / 4, 0.55, 90, M_1_PI / 4, 0.55, 180, M_1_PI / 4 });
 	table("grains", 4, WORDS{ "x", "m", "y", "m", "z", "m", "radius", "um" }, 2, ROWS{ 0, 0, 0, 1, 0.1, 0.2, 0.3, 3 });
 
+	char *path = in_folder("csv");
+	FILE *f = fopen(path, "w");
+	if (!f)
+		die(path, "cannot create:");
+	fprintf(f, "\xef\xbb\xbf\"id\",x , radius\r\n1,2, \"3.5\"\r\n2,-1e-3,nan\r\n");
+	fclose(f);
+	free(path);
+
 	struct exr image = { .width = 17, .height = 19, .history = xtext("vrender\n") };
 	static const char *const names[] = { "R", "G", "B", "count" };
 	for (int i = 0; i < 4; i++) {
@@ -143,7 +155,7 @@ static void make_inputs(void)
 		for (int p = 0; p < 17 * 19; p++)
 			data[p] = (float)(p * (i + 1) % 61) / 64;
 	}
-	char *path = in_folder("zip.exr");
+	path = in_folder("zip.exr");
 	exr_write((struct out[]){ out_open(path, 1) }, &image);
 	exr_free(&image);
 	free(path);
@@ -154,6 +166,7 @@ static void make_inputs(void)
 	free(path);
 	char *command = xtext("cd %s && oiiotool zip.exr --ch R,G,B -d half --compression piz -o piz.exr && "
 	    "oiiotool zip.exr --ch R,G,B -d float --compression pxr24 --tile 16 16 -o tiled.exr && "
+	    "\"$BIN/tabtxt\" --npy grains -o npy && "
 	    "{ ! [ -x \"$BIN/medium-bake\" ] || \"$BIN/medium-bake\" --xsect xsect --phase phase --box 1m,1m,1m -o medium grains; } && "
 	    "{ ! [ -x \"$BIN/medium-bake\" ] || \"$BIN/medium-bake\" --xsect xsect --phase phase --psd sizes --concentration 1e9/m3 "
 	    "--box 1m,1m,1m --voxels 3 -o field; } && "
@@ -276,7 +289,7 @@ static int share(const struct reader *r, const struct bytes *whole, size_t worke
 	memcpy(b.p, whole->p, whole->n);
 	for (b.n = 0; b.n < whole->n && wrong < 4; b.n += stride)
 		if (number++ % WORKERS == worker)
-			wrong += trial(r, &b, NULL, r->input == &scene, "cut at", b.n);
+			wrong += trial(r, &b, NULL, r->input == &scene || r->input == &csv, "cut at", b.n);
 	b.n = whole->n;
 	for (size_t bit = 0; bit < 8 * whole->n && wrong < 4; bit += stride)
 		if (number++ % WORKERS == worker) {

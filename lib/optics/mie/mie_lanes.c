@@ -21,7 +21,7 @@ INLINE void weights(double first, vec w[WEIGHTS])
 	w[CROSS] = 1.0 / (l * (l + 1.0) * w[W]);
 }
 
-enum { EXT, SCA, ASYM, BACK_RE, BACK_IM, SUMS };
+enum { EXT, SCA, ASYM, BACK_RE, BACK_IM, MOVED, SUMS };
 
 /* What an order adds, but for scattering; old: the order before. */
 INLINE void addends(const vec w[WEIGHTS], const vec *a, const vec *b, const vec *old_a, const vec *old_b, vec t[SUMS])
@@ -74,6 +74,8 @@ INLINE void orders(struct many *many, const struct downward_orders *e, int u, co
 		m.sum[BACK_IM] = t[BACK_IM] - m.sum[BACK_IM];
 		if (is.absorb)
 			m.sum[SCA] += own.sca;
+		if (is.from_x && !is.near)
+			m.sum[MOVED] += own.moved;
 		for (int c = 0; c < 2; c++) {
 			m.old_a[c] = own.a[c];
 			m.old_b[c] = own.b[c];
@@ -107,7 +109,8 @@ INLINE void spheres(struct mie_block *b, int first, const double *const w[WEIGHT
 		for (int i = 0; i < LANES; i++) {
 			vec *q = m.sum;
 			b->sums[first + u * LANES + i] = (struct mie_sums){ .ext = LANE(&q[EXT], i), .sca = LANE(&q[SCA], i),
-				.asym = LANE(&q[ASYM], i), .back_re = LANE(&q[BACK_RE], i), .back_im = LANE(&q[BACK_IM], i) };
+				.asym = LANE(&q[ASYM], i), .back_re = LANE(&q[BACK_RE], i), .back_im = LANE(&q[BACK_IM], i),
+				.moved = LANE(&q[MOVED], i) };
 		}
 	}
 }
@@ -183,6 +186,8 @@ INLINE void row(const struct mie_row *r, struct regime is)
 		store(r->b_im + i, own.b[1]);
 		if (is.absorb)
 			store(r->sca + i, own.sca);
+		if (is.from_x && !is.near && r->moved)
+			store(r->moved + i, own.moved);
 	}
 }
 
@@ -241,6 +246,8 @@ static void sums_of_one(const struct mie_row *r, struct mie_sums *sums)
 		store(&t[BACK_IM][i], own[BACK_IM]);
 	}
 	*sums = r->absorbs ? sum(r->count, t, r->sca, *sums) : sum(r->count, t, NULL, *sums);
+	for (int i = 0; r->moved && i < r->count; i++)
+		sums->moved += r->moved[i];
 }
 
 /* ------------------------------------------------------------------ many angles */

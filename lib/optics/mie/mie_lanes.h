@@ -9,8 +9,10 @@
 #include "base/cpu.h"
 #include "optics/mie/mie.h"
 
+#include <float.h>
 #include <stddef.h>
 
+#define MIE_OFF (0.75 * DBL_EPSILON)    /* relative error of x that does what rounding of x and m and of the recurrences does */
 #define MIE_NEAR 0.005         /* |m - 1| below which coefficients are taken from differences */
 
 static inline int mie_near(double complex m)
@@ -23,6 +25,7 @@ struct mie_sums {
 	double ext, sca;           /* sum (2l+1) Re(a + b), (2l+1) (|a|^2 + |b|^2) */
 	double asym;               /* sum l(l+2)/(l+1) Re(a_l a*_(l+1) + b_l b*_(l+1)) + (2l+1)/(l(l+1)) Re(a_l b*_l) */
 	double back_re, back_im;   /* sum (-1)^l (2l+1) (a - b), but for the sign */
+	double moved;              /* sum of the squares of (2l+1) times how far rounding may move a and b: narrow resonances */
 };
 
 /* Of coefficients a[n+1], b[n+1]; lossless: sca is not taken. */
@@ -30,7 +33,7 @@ void mie_sums_of(int lossless, int n, const double complex *a, const double comp
 
 /* Efficiencies, and the estimate of their error, of sums at size parameter x. */
 struct efficiencies mie_sums_efficiencies(double x, int lossless, const struct mie_sums *s);
-double mie_sums_error(double x, int lossless, const struct mie_sums *s);
+double mie_sums_error(double x, int lossless, int terms, const struct mie_sums *s);
 
 struct mie_block {
 	int absorbs, near;         /* some Im m > 0, else m_im is not looked at; all |m - 1| < MIE_NEAR */
@@ -55,6 +58,7 @@ struct mie_row {
 	const double *ex, *er, *ei, *size, *re, *im;
 	double *a_re, *a_im, *b_re, *b_im;    /* before them stand those of first - 1, or 0 */
 	double *sca;                          /* (|a|^2 + |b|^2) times as much, absorbing spheres only */
+	double *moved;                        /* as struct mie_sums has it; NULL: not asked for */
 };
 
 #define MIE_ANGLES 32

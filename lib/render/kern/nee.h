@@ -41,7 +41,7 @@ FN mv nee_roulette(const struct scene *s, struct path *p, mv m, mv shines, mv di
 FN fv nee_weigh(const struct scene *s, const struct volume *v, const struct tables *t, struct path *p, mv m, const struct light_sample *d,
                 const fv *value, mv chained, mv straight)
 {
-	fv direction_pdf = FV(0.f), k = FV((float)s->lights.n), alone = k, largest = FV(0.f);    /* alone: met by no path */
+	fv direction_pdf = FV(0.f), k = 1.f / d->pick, alone = k, largest = FV(0.f);    /* alone: met by no path */
 	EACH_WAVE(j)
 		direction_pdf += value[j] * PATH_PDF(p, j);
 	if (CARRIED > 1)
