@@ -2,6 +2,7 @@
 
 #include "format/limits.h"
 #include "medium/particle_counts.h"
+#include "medium/particle_grid.h"
 #include "optics/phase/phase.h"
 
 #include <float.h>
@@ -129,7 +130,7 @@ static const char *particles(const struct medium *m)
 		if (m->kind == MEDIUM_PARTICLES && count[k] != m->count[k])
 			wrong = "its classes do not count its particles";
 	free(count);
-	return wrong;
+	return !wrong && m->kind == MEDIUM_PARTICLES && !particle_grid_agrees(m) ? "a particle is not in its cell" : wrong;
 }
 
 static const char *voxels(const struct medium *m)

@@ -120,3 +120,12 @@ size_t particle_grid_around(const struct medium *m, const double at[3], size_t *
 		}
 	return found;
 }
+
+int particle_grid_agrees(const struct medium *m)
+{
+	for (size_t c = 0; c + 1 < m->n_first; c++)
+		for (size_t i = m->first[c]; i < m->first[c + 1]; i++)
+			if (home(m, m->particle + 4 * i) != c)
+				return 0;
+	return 1;
+}

@@ -11,4 +11,7 @@ void particle_grid_build(struct medium *m);
  * *one is one of them. */
 size_t particle_grid_around(const struct medium *m, const double at[3], size_t *one);
 
+/* particle_grid_agrees - whether every particle lies in the cell that has it. */
+int particle_grid_agrees(const struct medium *m);
+
 #endif

@@ -5,7 +5,6 @@
 #include "optics/phase/angle_grid.h"
 #include "toolkit/ensemble.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -87,8 +86,8 @@ static int integrate(struct average *a, int least, int judged)
 
 static void take_angles(struct ensemble *e, long n)
 {
-	if (n > INT_MAX)
-		die(NULL, "the sizes want too many angles");
+	if (n < 0 || (double)n * PHASE_ELEMENTS * (double)e->nmean > ANGLE_GRID_MOST)
+		die(NULL, "the sizes want too many angles; choose them by --angles or --theta, or allow more by --tolerance");
 	e->n = n;
 	e->theta = xgrow(e->theta, (size_t)n, sizeof *e->theta);
 }

@@ -173,7 +173,10 @@ static void compute_refined(struct job *j, const struct batch *b)
 		}
 #pragma omp parallel for schedule(dynamic) reduction(|:failed) if (n > 1)
 		for (size_t i = 0; i < n; i++)
-			failed |= angle_refinement_find(j->model, j->o->tolerance, &a[i]) != 0;
+			failed |= (int[]){ 1, 0, 2 }[1 + angle_refinement_find(j->model, j->o->tolerance, &a[i])];
+		if (failed & 2)
+			die("--tolerance", "%g takes too many angles at such size parameters; choose them by --angles or --theta, or allow more",
+			    j->o->tolerance);
 		if (failed)
 			die(NULL, "out of memory");
 		for (size_t i = 0; i < n; i++) {

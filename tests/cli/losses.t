@@ -4,10 +4,10 @@
 . "$(dirname "$0")/../support/lib.sh"
 # shellcheck source=tests/support/media.sh
 . "$top/tests/support/media.sh"
-tab=$(printf '\t')
 sanitized=
 case $MOTES_BUILD in *asan*) sanitized=1 ;; esac      # its memory is not to be limited
 # starved KB COMMAND..: with so much memory
+# shellcheck disable=SC3045    # not POSIX, but what sh is on Linux has it
 starved() { (ulimit -v "$1"; shift; exec "$@"); }
 
 # ---- outputs
@@ -203,6 +203,9 @@ else
 	OMP_NUM_THREADS=1 starved 800000 mie-phase --particle 1.5 --size-parameter 1e7 --angles 3 -o f
 	ok $? 'a size parameter of 1e7 at three angles takes little more than its coefficients'
 fi
+refused 'all the angles that 1e7 would take' 'takes too many angles' timeout 10 mie-phase --particle 1.5 --size-parameter 1e7 -o f
+printf '# radius:f64:um\tweight:f64:1\n800000\t1\n' | txttab -o giant.tab
+refused 'and those of a mean' 'too many angles' timeout 10 mie-phase --particle 1.5 --wavelength 550nm --average --tolerance 1e-6 giant.tab
 
 # ---- numbers that are none
 coefficients() {
