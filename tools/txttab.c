@@ -16,7 +16,7 @@ int main(int argc, char **argv)
 	struct tab_text *in = tab_text_open(args.n ? args.operand[0] : NULL);
 	int n;
 	const struct tab_col *cols = tab_text_columns(in, &n);
-	struct tab_out *out = tab_create(output, "", args.history, n, cols);
+	struct tab_out *out = tab_create(output, "", args.history, tab_text_law(in), n, cols);
 	double row[TAB_COLS];
 	while (tab_text_next(in, row))
 		tab_put(out, row);

@@ -99,7 +99,7 @@ static void run(struct spheres *in, struct method_selection *selection, const ch
 	int by_x = spheres_by_x(in), k = spheres_key_columns(in, cols);
 	k += columns(by_x, cols + k);
 	int ncarried = spheres_carried(in, k, cols, cols + k), n = spheres_batch(in, w);
-	struct tab_out *out = tab_create(output, spheres_history(in), command, k + ncarried, cols);
+	struct tab_out *out = tab_create(output, spheres_history(in), command, spheres_law(in), k + ncarried, cols);
 	for (; n; n = spheres_batch(in, w)) {
 		answers(selection, n, w, a);
 		for (int i = 0; i < n; i++) {

@@ -14,19 +14,28 @@ struct tab_text {
 	const char *path;        /* for messages */
 	int n;
 	struct tab_col cols[TAB_COLS];
+	char *law;
 	char *line;
 	size_t room;
 	long number;             /* of the line */
 };
 
-/* "# name:type:unit<TAB>name:type:unit..." */
-static int columns(const char *path, char *line, struct tab_col *cols)
+/* "# name:type:unit<TAB>name:type:unit...<TAB>law=..", the law if there is one. */
+static int columns(const char *path, char *line, struct tab_col *cols, char **law)
 {
 	int n = 0;
 	char *save = NULL;
 	if (strncmp(line, "# ", 2))
 		die(path, "line 1: must name the columns, like '# radius:f64:um<TAB>weight:f64:1'");
 	for (char *word = strtok_r(line + 2, "\t", &save); word; word = strtok_r(NULL, "\t", &save), n++) {
+		if (!strncmp(word, "law=", 4)) {
+			const char *bad = *law ? "a law stands twice" : tab_law_valid(word + 4);
+			if (bad)
+				die(path, "line 1: %s", bad);
+			*law = xtext("%s", word + 4);
+			n--;
+			continue;
+		}
 		char *type = strchr(word, ':'), *unit = type ? strchr(type + 1, ':') : NULL;
 		if (n == TAB_COLS)
 			die(path, "line 1: more than %d columns", TAB_COLS);
@@ -98,7 +107,7 @@ struct tab_text *tab_text_open(const char *path)
 		die(t->path, "cannot open:");
 	if (!next_line(t))
 		die(t->path, "is empty");
-	t->n = columns(t->path, t->line, t->cols);
+	t->n = columns(t->path, t->line, t->cols, &t->law);
 	return t;
 }
 
@@ -107,6 +116,8 @@ const struct tab_col *tab_text_columns(const struct tab_text *t, int *n)
 	*n = t->n;
 	return t->cols;
 }
+
+const char *tab_text_law(const struct tab_text *t) { return t->law; }
 
 int tab_text_next(struct tab_text *t, double *row)
 {
@@ -120,6 +131,7 @@ void tab_text_close(struct tab_text *t)
 {
 	if (t->f != stdin)
 		fclose(t->f);
+	free(t->law);
 	free(t->line);
 	free(t);
 }

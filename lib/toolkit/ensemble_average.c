@@ -165,7 +165,7 @@ void ensemble_average_table(const struct phase_options *o, struct spheres *in, c
 			sizes += size_quadrature_count(e->sub, k);
 		warn("verbose", "mean over %ld sizes; half as many change it by %.2g", sizes, a.change);
 	}
-	struct tab_out *out = tab_create(output, spheres_history(in), command, 2 + PHASE_ELEMENTS, cols);
+	struct tab_out *out = tab_create(output, spheres_history(in), command, spheres_law(in), 2 + PHASE_ELEMENTS, cols);
 	for (size_t m = 0; m < e->nmean; m++) {
 		double row[2 + PHASE_ELEMENTS] = { e->mean[m].size.wavelength };
 		for (long i = 0; i < e->n; i++) {

@@ -207,7 +207,8 @@ static void each(struct job *j, const char *output, const char *command)
 	int ncarried = spheres_carried(j->in, k + OWN, cols, cols + k + OWN);
 	int more = spheres_next(j->in, &next);
 	gather(j, &b, &next, &more);
-	j->out = tab_create(output, spheres_history(j->in), command, k + OWN + ncarried, cols);
+	j->out = tab_create(output, spheres_history(j->in), command, spheres_law(j->in), k + OWN + ncarried,
+	                    cols);
 	for (; b.n; gather(j, &b, &next, &more))
 		if (j->n || !j->model->any_angles)
 			compute(j, &b);

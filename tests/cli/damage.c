@@ -97,7 +97,7 @@ static void table(const char *name, int ncols, const char *const *columns, int r
 		strcpy(cols[i].name, columns[2 * i]);
 		strcpy(cols[i].unit, columns[2 * i + 1]);
 	}
-	struct tab_out *t = tab_create(path, "", "by hand", ncols, cols);
+	struct tab_out *t = tab_create(path, "", "by hand", NULL, ncols, cols);
 	for (int i = 0; i < rows; i++)
 		tab_put(t, values + i * ncols);
 	tab_finish(t);

@@ -2,7 +2,7 @@
 #ifndef OPTICS_PSD_H
 #define OPTICS_PSD_H
 
-enum psd_kind { PSD_MONO, PSD_LOGNORMAL, PSD_GAMMA, PSD_NORMAL, PSD_UNIFORM, PSD_POWER };
+enum psd_kind { PSD_MONO, PSD_LOGNORMAL, PSD_GAMMA, PSD_NORMAL, PSD_UNIFORM, PSD_POWER, PSD_KINDS };
 
 #define PSD_RADIUS_MIN 1e-9      /* um: truncations lie in this range */
 #define PSD_RADIUS_MAX 1e9
@@ -38,5 +38,13 @@ double psd_moment(const struct psd *p, int k, double lo, double hi);
  * it, so that its moments 0 to 3 are exact; the class edges lie where the cumulated number equals the cumulated weights,
  * which is between the nodes (Chebyshev, Markov, Stieltjes: Szego, Orthogonal Polynomials, 3.41). */
 const char *psd_classes(const struct psd *p, int n, struct psd_class *out);
+
+/* psd_fits - whether classes are those of a distribution, as psd_classes makes them, in any order, or any others that divide it: one
+ * begins where another ends, from min to max where these are given; radii lie within; a class has its share of the number between
+ * the lowest limit and the highest within PSD_FITS, relative (and limits and radii within PSD_TOUCH). A class may stand again, as in
+ * a table of several wavelengths. Returns NULL, or what is wrong. c is sorted by its limits, and left with each class once: *n. */
+#define PSD_FITS 1e-4
+#define PSD_TOUCH 1e-6
+const char *psd_fits(const struct psd *p, int *n, struct psd_class *c);
 
 #endif

@@ -145,7 +145,7 @@ static const char *law_of(const struct psd *p, struct psd_law *d)
 	case PSD_UNIFORM:
 		d->s = 1;
 		break;
-	case PSD_POWER:
+	default:
 		d->s = 1 - p->a;
 		if (!(fabs(p->a) <= 100))
 			return "needs an exponent from -100 to 100";
