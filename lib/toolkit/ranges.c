@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#define TAIL 0.01      /* of the tolerance */
+#define TAIL 0.001     /* of the tolerance */
 
 void ranges_add(struct size_integral *s, const struct class_table *t, int together, double tolerance)
 {

@@ -9,7 +9,6 @@
 #define OCTAVES_FROM 8         /* size parameter from which ranges are parted */
 #define CHUNK 4096             /* sizes handed over together */
 #define LEAST_X 100            /* what a small sphere counts as, in work */
-#define SAFETY 2
 #define FIRST_LEVEL 2          /* that is judged */
 #define LAST_LEVEL 20
 #define FIRST_STEP 1.0         /* largest step in x that is judged */
@@ -112,7 +111,7 @@ static void refine(struct size_integral *s, struct size_part *p, double *before)
 
 static void judge(const struct size_integral *s, struct size_part *p, const double *change)
 {
-	double now = SAFETY * s->integrand.error(s->integrand.context, p, change, s->total[p->group]);
+	double now = s->integrand.error(s->integrand.context, p, change, s->total[p->group]);
 	if (p->level < FIRST_LEVEL || (step(s, p) > FIRST_STEP && step(s, p) > narrowest(s, p)))
 		p->error = INFINITY;
 	else
@@ -146,18 +145,42 @@ void size_integral_open(struct size_integral *s)
 	}
 }
 
+/* Of each group above the tolerance the part that gains most for its cost, and all that are not judged yet; returns how many. */
+static size_t mark(const struct size_integral *s, double tolerance, double most, size_t *best, int *marked)
+{
+	double work = s->work;
+	size_t n = 0;
+	for (size_t g = 0; g < s->groups; g++)
+		best[g] = s->n;
+	memset(marked, 0, s->n * sizeof *marked);
+	for (size_t i = 0; i < s->n; i++) {
+		const struct size_part *p = &s->part[i], *b = best[p->group] < s->n ? &s->part[best[p->group]] : NULL;
+		if (!(s->error[p->group] > tolerance) || p->level >= LAST_LEVEL)
+			continue;
+		if (isinf(p->error))
+			marked[i] = 1;
+		else if (!b || p->error * p->error / cost(s, p) > b->error * b->error / cost(s, b))
+			best[p->group] = i;
+	}
+	for (size_t g = 0; g < s->groups; g++)
+		if (best[g] < s->n)
+			marked[best[g]] = 1;
+	for (size_t i = 0; i < s->n; i++) {
+		if (marked[i] && (work += cost(s, &s->part[i])) > most)
+			marked[i] = 0;
+		n += (size_t)marked[i];
+	}
+	return n;
+}
+
 double size_integral_run(struct size_integral *s, double tolerance, double most)
 {
-	double **change = xalloc(s->n, sizeof *change), worst;
-	size_t *parts = xalloc(s->groups, sizeof *parts);
-	int *marked = xalloc(s->n, sizeof *marked), any = 1;
-	for (size_t i = 0; i < s->n; i++) {
+	double **change = xalloc(s->n, sizeof *change);
+	size_t *best = xalloc(s->groups, sizeof *best);
+	int *marked = xalloc(s->n, sizeof *marked);
+	for (size_t i = 0; i < s->n; i++)
 		change[i] = xalloc(s->part[i].values, sizeof **change);
-		marked[i] = 1;
-		parts[s->part[i].group]++;
-	}
-	while (any) {
-		any = 0;
+	while (errors(s), mark(s, tolerance, most, best, marked)) {
 		for (size_t i = 0; i < s->n; i++)
 			if (marked[i])
 				refine(s, &s->part[i], change[i]);
@@ -165,41 +188,13 @@ double size_integral_run(struct size_integral *s, double tolerance, double most)
 		for (size_t i = 0; i < s->n; i++)
 			if (marked[i])
 				judge(s, &s->part[i], change[i]);
-		worst = errors(s);
-		double next = s->work;
-		for (size_t i = 0; i < s->n; i++) {
-			struct size_part *p = &s->part[i];
-			/* a part that has its share is left alone until no other is above */
-			marked[i] = s->error[p->group] > tolerance && p->level < LAST_LEVEL
-			    && !(p->error < tolerance / sqrt((double)parts[p->group]));
-			if (marked[i] && (next += cost(s, p)) > most)
-				marked[i] = 0;
-			any |= marked[i];
-		}
 	}
 	for (size_t i = 0; i < s->n; i++)
 		free(change[i]);
 	free(change);
-	free(parts);
+	free(best);
 	free(marked);
-	return worst;
-}
-
-void size_integral_repeat(struct size_integral *s, const struct size_integrand *other)
-{
-	s->integrand = *other;
-	for (size_t i = 0; i < s->n; i++) {
-		struct size_part *p = &s->part[i];
-		int last = p->level;
-		p->values = other->values(other->context, p->range.hi * other->x_of_um);
-		for (int way = 0; way < SIZE_WAYS; way++) {
-			free(p->sum[way]);
-			p->sum[way] = xalloc(p->values, sizeof(double));
-		}
-		for (int level = 0; level <= last; level++)
-			add_level(s, p, level);
-	}
-	totals(s);
+	return errors(s);
 }
 
 void size_integral_free(struct size_integral *s)

@@ -52,16 +52,14 @@ void size_integral_add(struct size_integral *s, struct size_range r, size_t grou
 /* size_integral_run - refine parts until the estimated error[] of each group is at most tolerance, or the next step would bring the work
  * above most; returns the largest.
  *
- * A change by a doubling says what is left of a smooth integrand. Of resonances narrower than the step it says little, since they
+ * A change by a doubling is more than what is left of a smooth integrand, and of one that is met by chance, whose error falls as the
+ * step does, 2.2 times that in root mean square. Of resonances narrower than the step it says little, since they
  * are met by chance: their share falls as the step does, so that the estimate is at least half of the one before until the step is
  * down to the narrowest resonance, by its width, exp(-2 x (n acosh n - sqrt(n^2 - 1))), or by absorption. */
 double size_integral_run(struct size_integral *s, double tolerance, double most);
 
 /* size_integral_open - find what the classes leave open: by how much the ways to rebuild the density differ. */
 void size_integral_open(struct size_integral *s);
-
-/* size_integral_repeat - the sums anew by another integrand, with the sizes that run took. */
-void size_integral_repeat(struct size_integral *s, const struct size_integrand *other);
 
 void size_integral_free(struct size_integral *s);
 

@@ -19,7 +19,13 @@ struct phase_series {
 /* sin^4(theta/2) takes two orders. */
 int phase_series_steps(int terms) { return legendre_series_steps(2 * terms + 3); }
 
-double phase_series_theta(int steps, int j) { return 180 * (j + 0.5) / steps; }
+/* Symmetric as doubles: a sum over partial waves serves an angle in front and its like behind. */
+double phase_series_theta(int steps, int j)
+{
+	int front = 2 * j < steps ? j : steps - 1 - j;
+	double behind = 180 - 180 * (front + 0.5) / steps;
+	return front == j ? 180 - behind : behind;
+}
 
 static double flat(double theta)
 {

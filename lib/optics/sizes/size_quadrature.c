@@ -10,10 +10,11 @@ static double v_at(double scale, double r)
 	return hypot(r, scale) - scale * asinh(scale / r);
 }
 
-/* v is convex in ln r: Newton's method from above stays there. */
+/* v is convex in ln r: Newton's method from above stays there. r is at most v + scale asinh(1) above scale, and what it is for r << scale
+ * below. */
 static double radius_at(double scale, double v, double above)
 {
-	double y = log(above);
+	double y = log(fmin(above, v > (M_SQRT2 - 0.881373587) * scale ? v + 0.881373588 * scale : 2 * scale * exp(v / scale - 1)));
 	for (int i = 0; i < 100; i++) {
 		double r = exp(y), step = (v_at(scale, r) - v) / hypot(r, scale);
 		y -= step;
