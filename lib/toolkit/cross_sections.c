@@ -108,6 +108,18 @@ static double error_of(void *context, const struct size_part *part, const double
 	return fmax(fmax(fabs(change[EXT] / total[EXT]), fabs(change[SCA] / total[SCA])), fabs(g));
 }
 
+/* What the classes of each group leave open: by how much the ways to rebuild the density differ. */
+static void find_open(const struct size_integral *s, struct mean_section *out)
+{
+	double (*change)[VALUES] = xalloc(s->groups, sizeof *change);
+	for (size_t i = 0; i < s->n && size_density_ways(s->density) > 1; i++)
+		for (int k = 0; k < VALUES; k++)
+			change[s->part[i].group][k] += s->part[i].sum[1][k] - s->part[i].sum[0][k];
+	for (size_t g = 0; g < s->groups; g++)
+		out[g].open = error_of(NULL, NULL, change[g], s->total[g]);
+	free(change);
+}
+
 static struct mean_section mean_of(const double v[VALUES], double weight)
 {
 	return (struct mean_section){ v[EXT] / weight, v[SCA] / weight, v[ABS] / weight, v[G_SCA] / v[SCA], v[BACK] / weight, v[AREA] / weight,
@@ -122,14 +134,14 @@ static double integrate(const struct class_table *t, size_t wave, struct method_
 	struct size_integral s = { .density = t->density, .integrand = { &sections, size->x / size->radius, size->m, 1, VALUES, count_values, add, error_of } };
 	ranges_add(&s, t, together, tolerance);
 	double worst = size_integral_run(&s, tolerance, MOST_WORK);
-	size_integral_open(&s);
 	for (size_t g = 0; g < s.groups; g++) {
 		out[g] = mean_of(s.total[g], together ? 1 : t->class[g].weight);
-		out[g].open = s.open[g];
-		out[g].error += s.error[g] + s.open[g];
 		out[g].method = sections.method;
 		out[g].sizes = s.sizes;
 	}
+	find_open(&s, out);
+	for (size_t g = 0; g < s.groups; g++)
+		out[g].error += s.error[g] + out[g].open;
 	size_integral_free(&s);
 	return worst;
 }

@@ -18,6 +18,25 @@ struct phase_mean {
 	struct phase_series *series[PHASE_ELEMENTS];
 };
 
+static void at(const struct phase_mean *mean, long n, const double *theta, double *value)
+{
+	for (int e = 0; e < PHASE_ELEMENTS; e++) {
+		if (mean->n)
+			memcpy(value + e * n, mean->value + e * n, (size_t)n * sizeof *value);
+		else
+			phase_series_at(mean->series[e], n, theta, value + e * n);
+		for (long j = 0; j < n; j++)
+			value[e * n + j] /= mean->sca;
+	}
+}
+
+static void forget(struct phase_mean *mean)
+{
+	free(mean->value);
+	for (int e = 0; e < PHASE_ELEMENTS; e++)
+		phase_series_free(mean->series[e]);
+}
+
 /* Values of a part: weight x c_sca, and, at n angles, times the elements. */
 struct integrand {
 	const struct phase_means_request *r;
@@ -136,15 +155,61 @@ static void join_rows(const struct phase_means_request *r, struct phase_means *m
 	free(weight);
 }
 
-static void finish(const struct phase_means_request *r, struct phase_means *m)
+static void finish(const struct phase_means_request *r, struct phase_mean *mean)
 {
-	for (size_t g = 0; g < m->groups; g++) {
-		if (!(m->mean[g].sca > 0 && m->mean[g].sca < INFINITY))
-			die(class_table_path(r->table), m->mean[g].sca > 0 ? "the sum of weights is out of range" : "all weights are 0");
-		for (int e = 0; e < PHASE_ELEMENTS; e++)
-			if (m->mean[g].series[e] && phase_series_ready(m->mean[g].series[e]))
-				die(NULL, "out of memory");
+	if (!(mean->sca > 0 && mean->sca < INFINITY))
+		die(class_table_path(r->table), mean->sca > 0 ? "the sum of weights is out of range" : "all weights are 0");
+	for (int e = 0; e < PHASE_ELEMENTS; e++)
+		if (mean->series[e] && phase_series_ready(mean->series[e]))
+			die(NULL, "out of memory");
+}
+
+/* The sums of an integral in one way join the means of its groups. */
+static void join_parts(const struct phase_means_request *r, const struct size_integral *s, int way, struct phase_mean *mean)
+{
+	for (size_t i = 0; i < s->n; i++)
+		join(r, &mean[s->part[i].group], angles_of(r, s->part[i].values), s->part[i].sum[way]);
+}
+
+/* Half the integral of |dp| between two means. */
+static double difference(const struct phase_means_request *r, const struct phase_mean *a, const struct phase_mean *b, double x)
+{
+	long n = r->model->any_angles ? phase_series_steps((int)x + 1) : r->n;
+	double *theta = angles(r, n), *p = xalloc(2 * PHASE_ELEMENTS * (size_t)n, sizeof *p), *q = p + PHASE_ELEMENTS * n, most = 0;
+	at(a, n, theta, p);
+	at(b, n, theta, q);
+	for (int e = 0; e < PHASE_ELEMENTS; e++) {
+		double sum = 0;
+		for (long j = 0; j < n; j++) {
+			double width = theta[j + 1 < n ? j + 1 : j] - theta[j ? j - 1 : 0];
+			sum += fabs(p[e * n + j] - q[e * n + j]) * sin(theta[j] * (M_PI / 180)) * width / 2;
+		}
+		most = fmax(most, sum * (M_PI * M_PI / 180));
 	}
+	free(theta);
+	free(p);
+	return most;
+}
+
+/* What the classes of each group leave open: by how much the ways to rebuild the density differ. */
+static double open_of(const struct phase_means_request *r, const struct size_integral *s, const struct phase_means *m)
+{
+	double most = 0;
+	if (size_density_ways(s->density) == 1)
+		return 0;
+	struct phase_mean *other = xalloc(m->groups, sizeof *other), *one = xalloc(m->groups, sizeof *one);
+	join_parts(r, s, 0, one);
+	join_parts(r, s, 1, other);
+	for (size_t g = 0; g < m->groups; g++) {
+		finish(r, &one[g]);
+		finish(r, &other[g]);
+		most = fmax(most, difference(r, &one[g], &other[g], m->x));
+		forget(&one[g]);
+		forget(&other[g]);
+	}
+	free(one);
+	free(other);
+	return most;
 }
 
 struct phase_means *phase_means_new(const struct phase_means_request *r, size_t wave)
@@ -165,20 +230,18 @@ struct phase_means *phase_means_new(const struct phase_means_request *r, size_t 
 	if (t->classes) {
 		ranges_add(&s, t, r->together, r->tolerance);
 		m->error = size_integral_run(&s, r->tolerance, MOST_WORK);
-		size_integral_open(&s);
-		for (size_t k = 0; k < s.groups; k++)
-			m->open = fmax(m->open, s.open[k]);
 		m->sizes = s.sizes;
-		for (size_t i = 0; i < s.n; i++) {
-			join(r, &m->mean[s.part[i].group], angles_of(r, s.part[i].values), s.part[i].sum[0]);
+		for (size_t i = 0; i < s.n; i++)
 			m->x = fmax(m->x, s.part[i].range.hi * size_extent(size) / size->radius);
-		}
+		m->open = open_of(r, &s, m);
+		join_parts(r, &s, 0, m->mean);
 	}
 	if (r->together)
 		join_rows(r, m, 0, t->n, wave, 1);
 	size_integral_free(&s);
 	free(g.ring);
-	finish(r, m);
+	for (size_t k = 0; k < m->groups; k++)
+		finish(r, &m->mean[k]);
 	return m;
 }
 
@@ -188,30 +251,19 @@ struct phase_means *phase_means_of_row(const struct phase_means_request *r, size
 	m->groups = 1;
 	m->mean = xalloc(1, sizeof *m->mean);
 	join_rows(r, m, row, row + 1, r->table->row[row].wave, 0);
-	finish(r, m);
+	finish(r, &m->mean[0]);
 	return m;
 }
 
 void phase_means_at(const struct phase_means *m, size_t group, long n, const double *theta, double *value)
 {
-	const struct phase_mean *mean = &m->mean[group];
-	for (int e = 0; e < PHASE_ELEMENTS; e++) {
-		if (mean->n)
-			memcpy(value + e * n, mean->value + e * n, (size_t)n * sizeof *value);
-		else
-			phase_series_at(mean->series[e], n, theta, value + e * n);
-		for (long j = 0; j < n; j++)
-			value[e * n + j] /= mean->sca;
-	}
+	at(&m->mean[group], n, theta, value);
 }
 
 void phase_means_free(struct phase_means *m)
 {
-	for (size_t g = 0; g < m->groups; g++) {
-		free(m->mean[g].value);
-		for (int e = 0; e < PHASE_ELEMENTS; e++)
-			phase_series_free(m->mean[g].series[e]);
-	}
+	for (size_t g = 0; g < m->groups; g++)
+		forget(&m->mean[g]);
 	free(m->mean);
 	free(m);
 }

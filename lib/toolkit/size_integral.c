@@ -24,7 +24,6 @@ static void append(struct size_integral *s, struct size_range r, size_t group)
 	for (; s->groups <= group; s->groups++) {
 		s->total = xgrow(s->total, s->groups + 1, sizeof *s->total);
 		s->error = xgrow(s->error, s->groups + 1, sizeof *s->error);
-		s->open = xgrow(s->open, s->groups + 1, sizeof *s->open);
 		memset(s->total[s->groups], 0, sizeof *s->total);
 	}
 }
@@ -130,21 +129,6 @@ static double errors(struct size_integral *s)
 	return worst;
 }
 
-void size_integral_open(struct size_integral *s)
-{
-	memset(s->open, 0, s->groups * sizeof *s->open);
-	if (size_density_ways(s->density) == 1)
-		return;
-	for (size_t i = 0; i < s->n; i++) {
-		const struct size_part *p = &s->part[i];
-		double *change = xalloc(p->values, sizeof *change);
-		for (size_t k = 0; k < p->values; k++)
-			change[k] = p->sum[1][k] - p->sum[0][k];
-		s->open[p->group] += s->integrand.error(s->integrand.context, p, change, s->total[p->group]);
-		free(change);
-	}
-}
-
 /* Of each group above the tolerance the part that gains most for its cost, and all that are not judged yet; returns how many. */
 static size_t mark(const struct size_integral *s, double tolerance, double most, size_t *best, int *marked)
 {
@@ -205,5 +189,4 @@ void size_integral_free(struct size_integral *s)
 	free(s->part);
 	free(s->total);
 	free(s->error);
-	free(s->open);
 }

@@ -41,7 +41,7 @@ struct size_integral {
 	size_t n, groups;
 	struct size_part *part;
 	double (*total)[SIZE_HEADS];   /* [groups], of the first way */
-	double *error, *open;          /* [groups], see below */
+	double *error;                 /* [groups], estimates */
 	double work;                   /* size parameters, each counted as 100 at least */
 	long sizes;
 };
@@ -57,9 +57,6 @@ void size_integral_add(struct size_integral *s, struct size_range r, size_t grou
  * are met by chance: their share falls as the step does, so that the estimate is at least half of the one before until the step is
  * down to the narrowest resonance, by its width, exp(-2 x (n acosh n - sqrt(n^2 - 1))), or by absorption. */
 double size_integral_run(struct size_integral *s, double tolerance, double most);
-
-/* size_integral_open - find what the classes leave open: by how much the ways to rebuild the density differ. */
-void size_integral_open(struct size_integral *s);
 
 void size_integral_free(struct size_integral *s);
 
