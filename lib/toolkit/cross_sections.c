@@ -131,7 +131,9 @@ static double integrate(const struct class_table *t, size_t wave, struct method_
 {
 	struct sections sections = { t, wave, selection, METHOD_MIE, 0 };
 	const struct size *size = &t->wave[wave];
-	struct size_integral s = { .density = t->density, .integrand = { &sections, size->x / size->radius, size->m, 1, VALUES, count_values, add, error_of } };
+	int resonates = method_selection_asked(selection) == METHOD_AUTO || method_selection_asked(selection) == METHOD_MIE;
+	struct size_integral s = { .density = t->density,
+		.integrand = { &sections, size->x / size->radius, size->m, resonates, VALUES, count_values, add, error_of } };
 	ranges_add(&s, t, together, tolerance);
 	double worst = size_integral_run(&s, tolerance, MOST_WORK);
 	for (size_t g = 0; g < s.groups; g++) {

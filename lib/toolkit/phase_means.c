@@ -134,13 +134,14 @@ static void join_rows(const struct phase_means_request *r, struct phase_means *m
 	struct waves *w = xalloc(to - from, sizeof *w);
 	double *weight = xalloc(to - from, sizeof *weight);
 	for (size_t i = from; i < to; i++) {
-		const struct class_row *row = &t->row[i];
+		struct class_row *row = &t->row[i];
 		if (row->class >= 0 || row->wave != wave)
 			continue;
 		w[n] = row->w;
+		row->w.a = row->w.b = NULL;    /* coefficients read are used once */
 		weight[n++] = weighted ? row->weight : 1;
 		m->x = fmax(m->x, size_extent(&row->w.size));
-		int own = waves_terms(&row->w);
+		int own = waves_terms(&w[n - 1]);
 		terms = own > terms ? own : terms;
 	}
 	if (n) {
