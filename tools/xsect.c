@@ -10,6 +10,7 @@
 
 #define TOLERANCE 1e-6      /* of methods */
 #define TOLERANCE_MEAN 5e-5 /* of means over sizes */
+#define TOLERANCE_ROUGH 1e-3    /* of an approximation, which is off by more */
 #define DARK 1         /* beta above which light is lost within a radius: extinction seen from afar grows as e^beta (mie_host.h) */
 #define FAILS 1    /* estimated error from which on a method does not hold */
 
@@ -89,13 +90,15 @@ static void tell_mean(struct told *t, const struct mean_section *m, double error
 }
 
 /* Rows as they are read, each its own size. */
-static void each_size(struct spheres *in, struct method_selection *selection, struct tab_out *out, struct told *told)
+static void each_size(struct spheres *in, struct method_selection *selection, const struct request *request, int ncols,
+                      const struct tab_col *cols, struct told *told)
 {
 	static struct waves w[SPHERES_BATCH];
 	static struct cross_section a[SPHERES_BATCH];
 	double row[TAB_COLS];
-	int by_x = spheres_by_x(in), n;
-	while ((n = spheres_batch(in, w))) {
+	int by_x = spheres_by_x(in), n = spheres_batch(in, w);    /* before the table begins: what is wrong with the first row leaves none */
+	struct tab_out *out = tab_create(request->output, spheres_history(in), request->command, spheres_law(in), ncols, cols);
+	for (; n; n = spheres_batch(in, w)) {
 		cross_sections_of(selection, n, w, a);
 		for (int i = 0; i < n; i++) {
 			int key = spheres_key(in, &w[i].size, row), j = key;
@@ -106,6 +109,7 @@ static void each_size(struct spheres *in, struct method_selection *selection, st
 			waves_free(&w[i]);
 		}
 	}
+	tab_finish(out);
 }
 
 /* Classes: the mean of each. */
@@ -160,9 +164,7 @@ static void run(struct spheres *in, struct method_selection *selection, const st
 	k += columns(spheres_by_x(in), cols + k);
 	int ncarried = spheres_carried(in, k, cols, cols + k);
 	if (!request->average && (request->at_radius || !class_table_in(in))) {
-		struct tab_out *out = tab_create(request->output, spheres_history(in), request->command, spheres_law(in), k + ncarried, cols);
-		each_size(in, selection, out, told);
-		tab_finish(out);
+		each_size(in, selection, request, k + ncarried, cols, told);
 		return;
 	}
 	if (request->average)
@@ -233,7 +235,8 @@ int main(int argc, char **argv)
 		die("--tolerance", "is for --method auto, and means over sizes");
 	/* of a mean's error, half is the methods' and half the sizes' */
 	struct method_selection *selection = method_selection_new(method, tolerance < 0 ? TOLERANCE : means ? tolerance / 2 : tolerance);
-	request.tolerance = tolerance < 0 ? TOLERANCE_MEAN : tolerance / 2;
+	int rough = method != METHOD_AUTO && method != METHOD_MIE;
+	request.tolerance = tolerance >= 0 ? tolerance / 2 : rough ? TOLERANCE_ROUGH : TOLERANCE_MEAN;
 	request.command = args.history;
 	if (!selection)
 		die(NULL, "out of memory");

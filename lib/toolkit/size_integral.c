@@ -11,7 +11,7 @@
 #define LEAST_X 100            /* what a small sphere counts as, in work */
 #define FIRST_LEVEL 2          /* that is judged */
 #define LAST_LEVEL 20
-#define FIRST_STEP 1.0         /* largest step in x that is judged */
+#define FIRST_STEP 4.0         /* largest step in x that is judged, where there are resonances */
 
 static void append(struct size_integral *s, struct size_range r, size_t group)
 {
@@ -111,7 +111,7 @@ static void refine(struct size_integral *s, struct size_part *p, double *before)
 static void judge(const struct size_integral *s, struct size_part *p, const double *change)
 {
 	double now = s->integrand.error(s->integrand.context, p, change, s->total[p->group]);
-	if (p->level < FIRST_LEVEL || (step(s, p) > FIRST_STEP && step(s, p) > narrowest(s, p)))
+	if (p->level < FIRST_LEVEL || (s->integrand.resonates && step(s, p) > FIRST_STEP))
 		p->error = INFINITY;
 	else
 		p->error = fmax(now, isinf(p->error) ? 0 : p->error / (step(s, p) > narrowest(s, p) ? 2 : 32));

@@ -57,7 +57,7 @@ for m in 1.33 1.33+1e-8i 1.5+0.1i; do
 done
 # shellcheck disable=SC2086
 {
-	mie-phase $water psd.tab >direct.tab
+	mie-phase --at-radius $water psd.tab >direct.tab
 	mie-coeffs $water psd.tab | mie-phase >streamed.tab
 	tabcmp direct.tab streamed.tab >diff.txt 2>&1
 	ok $? 'on the default grid, too'
