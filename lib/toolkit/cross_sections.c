@@ -134,8 +134,7 @@ static double integrate(const struct class_table *t, size_t wave, struct method_
 	int resonates = method_selection_asked(selection) == METHOD_AUTO || method_selection_asked(selection) == METHOD_MIE;
 	struct size_integral s = { .density = t->density,
 		.integrand = { &sections, size->x / size->radius, size->m, resonates, VALUES, count_values, add, error_of } };
-	ranges_add(&s, t, together, tolerance);
-	double worst = size_integral_run(&s, tolerance, MOST_WORK);
+	double left = ranges_add(&s, t, together, tolerance), worst = size_integral_run(&s, tolerance, MOST_WORK);
 	for (size_t g = 0; g < s.groups; g++) {
 		out[g] = mean_of(s.total[g], together ? 1 : t->class[g].weight);
 		out[g].method = sections.method;
@@ -143,7 +142,7 @@ static double integrate(const struct class_table *t, size_t wave, struct method_
 	}
 	find_open(&s, out);
 	for (size_t g = 0; g < s.groups; g++)
-		out[g].error += s.error[g] + out[g].open;
+		out[g].error += s.error[g] + out[g].open + left;
 	size_integral_free(&s);
 	return worst;
 }

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define TAILS 0.01         /* of the tolerance, more than ranges_add leaves out */
 #define MOST_WORK 3e8      /* of size parameters together */
 
 struct phase_mean {
@@ -229,8 +230,8 @@ struct phase_means *phase_means_new(const struct phase_means_request *r, size_t 
 			g.ring[j] = sin(r->theta[j] * (M_PI / 180)) * (r->theta[j + 1 < r->n ? j + 1 : j] - r->theta[j ? j - 1 : 0]) / 2 * (M_PI * M_PI / 180);
 	}
 	if (t->classes) {
-		ranges_add(&s, t, r->together, r->tolerance);
-		m->error = size_integral_run(&s, r->tolerance, MOST_WORK);
+		double left = ranges_add(&s, t, r->together, r->tolerance);
+		m->error = left + size_integral_run(&s, (1 - TAILS) * r->tolerance, MOST_WORK);
 		m->sizes = s.sizes;
 		for (size_t i = 0; i < s.n; i++)
 			m->x = fmax(m->x, s.part[i].range.hi * size_extent(size) / size->radius);

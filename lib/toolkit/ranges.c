@@ -6,7 +6,7 @@
 
 #define TAIL 0.001     /* of the tolerance */
 
-void ranges_add(struct size_integral *s, const struct class_table *t, int together, double tolerance)
+double ranges_add(struct size_integral *s, const struct class_table *t, int together, double tolerance)
 {
 	double scale = 1 / s->integrand.x_of_um, lo = 0, hi = INFINITY;
 	int open_lo = t->has_law && isnan(t->law.min), open_hi = t->has_law && isnan(t->law.max);
@@ -17,9 +17,10 @@ void ranges_add(struct size_integral *s, const struct class_table *t, int togeth
 		if (open_hi)
 			hi = fmin(hi, SIZE_X_MAX * scale * fmin(1, size_y_max(s->integrand.m) / cabs(s->integrand.m) / SIZE_X_MAX));
 	}
+	double left = TAIL * tolerance * (open_lo + open_hi);
 	if (together && t->has_law) {
 		size_integral_add(s, (struct size_range){ 0, lo, hi, !open_lo, !open_hi, scale }, 0);
-		return;
+		return left;
 	}
 	for (int i = 0; i < t->classes; i++) {
 		struct size_range r = { i, t->class[i].lo, t->class[i].hi, 1, 1, scale };
@@ -29,4 +30,5 @@ void ranges_add(struct size_integral *s, const struct class_table *t, int togeth
 			r.hi = fmax(r.hi, hi);
 		size_integral_add(s, r, together ? 0 : (size_t)i);
 	}
+	return left;
 }

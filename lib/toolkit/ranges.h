@@ -7,7 +7,7 @@
 
 /* ranges_add - append to an integral the ranges of the classes of a table, each a group of its own, or, together, all as one. A law that
  * is not cut goes on below the first class and above the last, until what is left counts for a thousandth of tolerance at most; together,
- * it is one range. The integrand is known. */
-void ranges_add(struct size_integral *s, const struct class_table *t, int together, double tolerance);
+ * it is one range. The integrand is known. Returns the share that may be left out. */
+double ranges_add(struct size_integral *s, const struct class_table *t, int together, double tolerance);
 
 #endif

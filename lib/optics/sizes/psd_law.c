@@ -196,9 +196,9 @@ const char *psd_law_limits(const struct psd *p, struct psd_law *d, double *min, 
 		psd_law_within(d, PSD_BULK, &low, &high);
 		psd_law_within(d, PSD_TAIL, &lo, &hi);
 		if (isnan(p->min))
-			*min = d->ref * exp(fmax(lo, fmin(log(PSD_RADIUS_MIN / d->ref), low)));
+			*min = fmax(d->ref * exp(lo), fmin(PSD_RADIUS_MIN, d->ref * exp(low)));
 		if (isnan(p->max))
-			*max = d->ref * exp(fmin(hi, fmax(log(PSD_RADIUS_MAX / d->ref), high)));
+			*max = fmin(d->ref * exp(hi), fmax(PSD_RADIUS_MAX, d->ref * exp(high)));
 		if (isnan(p->min) && *min < PSD_RADIUS_MIN)
 			return "reaches below 1e-9um by default; give its smallest radius";
 		if (isnan(p->max) && *max > PSD_RADIUS_MAX)
