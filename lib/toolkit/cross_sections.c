@@ -116,7 +116,7 @@ static void find_open(const struct size_integral *s, struct mean_section *out)
 		for (int k = 0; k < VALUES; k++)
 			change[s->part[i].group][k] += s->part[i].sum[1][k] - s->part[i].sum[0][k];
 	for (size_t g = 0; g < s->groups; g++)
-		out[g].open = error_of(NULL, NULL, change[g], s->total[g]);
+		out[g].open = SIZE_OPEN * error_of(NULL, NULL, change[g], s->total[g]);
 	free(change);
 }
 

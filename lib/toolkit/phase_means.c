@@ -205,7 +205,7 @@ static double open_of(const struct phase_means_request *r, const struct size_int
 	for (size_t g = 0; g < m->groups; g++) {
 		finish(r, &one[g]);
 		finish(r, &other[g]);
-		most = fmax(most, difference(r, &one[g], &other[g], m->x));
+		most = fmax(most, SIZE_OPEN * difference(r, &one[g], &other[g], m->x));
 		forget(&one[g]);
 		forget(&other[g]);
 	}

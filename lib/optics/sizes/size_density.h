@@ -4,8 +4,9 @@
 
 #include "optics/sizes/psd.h"
 
-/* Where a law is not known the density is rebuilt in two ways, both of which give every class its weight; by how much integrals over
- * them differ is what the classes leave open. */
+/* Where a law is not known the density is rebuilt in two ways, both of which give every class its weight; what the classes leave open is
+ * SIZE_OPEN times what integrals over them differ by, since both may be off to the same side. */
+#define SIZE_OPEN 2
 #define SIZE_WAYS 2
 
 struct size_density;
