@@ -23,7 +23,7 @@ LIBS = -lOpenEXRCore -lpng -lz -lconfig -lOpenCL -lm
 ASAN = -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 EXR_CFLAGS = $(shell pkg-config --cflags OpenEXR)    # asked for when used: make deps may have just installed it
 
-KINDS = unit cli physics     # of tests
+KINDS = unit cli physics support     # of tests, and what they share
 TOOLS = $(patsubst tools/%.c,%,$(wildcard tools/*.c))
 CHECKS = $(patsubst tests/%.c,%,$(wildcard $(KINDS:%=tests/%/*.c)))
 GENERATED = materials kernels
@@ -170,7 +170,7 @@ MIE_BENCHES = mie
 XSECT_BENCHES = xsect
 CHARTS = $(patsubst tests/bench/%.sh,%,$(wildcard tests/bench/chart-*.sh))
 BENCHES = $(filter-out $(RENDER_BENCHES) $(MIE_BENCHES) $(XSECT_BENCHES) $(CHARTS),$(patsubst tests/bench/%.sh,%,$(wildcard tests/bench/*.sh)))
-bench: programs $(CHECKS:%=$(B)/tests/%)
+bench: programs $(CHECKS:%=$(B)/tests/%) $(B)/tests/bench/goa
 	PATH="$(CURDIR)/$(B)/bin:$$PATH" MOTES_TESTS="$(CURDIR)/$(B)/tests" sh tests/bench/run $(B)/bench $(BENCHES)
 bench-render: programs
 	sh tests/bench/mitsuba-venv $(B)/mitsuba-venv

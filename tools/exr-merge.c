@@ -9,11 +9,13 @@
 int main(int argc, char **argv)
 {
 	const char *output = NULL;
+	int whole = 0;
 	const struct opt opts[] = {
 		{ "-o", OPT_FILE, &output, 0, 0, "OUT.exr", "the image", 1 },
+		{ "--whole", OPT_FLAG, &whole, 0, 0, NULL, "no samples are to follow: leave the sums out", 1 },
 		OPT_END
 	};
-	const struct opt_tool tool = { "-o OUT.exr IN.exr..", "Add the parts of an image that vrender --sample-range made.", opts, 0 };
+	const struct opt_tool tool = { "[--whole] -o OUT.exr IN.exr..", "Add the parts of an image that vrender --sample-range made.", opts, 0 };
 	struct opt_line args = opt_parse(&tool, argc, argv);
 	if (!output)
 		die("-o", "is needed");
@@ -31,8 +33,10 @@ int main(int argc, char **argv)
 		image_merge(&all, &more, standard_input(args.operand[i]));
 		image_free(&more);
 	}
+	if (whole && !image_whole(&all))
+		die("--whole", "samples are missing: the parts are not all from 0 on without a gap");
 	struct out out = out_open(output, 1);
-	image_write(&out, &all, !image_whole(&all));
+	image_write(&out, &all, !whole && !image_complete(&all));
 	image_free(&all);
 	free(args.history);
 	return 0;

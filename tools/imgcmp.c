@@ -137,7 +137,7 @@ static int other_sums(FILE *f, const struct exr *a, const struct exr *b)
 }
 
 /* The picture of a - b, of the channels that are compared. */
-static void write_difference(const char *path, const char *names, const struct exr *a, const struct exr *b, const char *command)
+static void write_difference(struct out *out, const char *names, const struct exr *a, const struct exr *b, const char *command)
 {
 	static struct exr d;
 	d.width = a->width;
@@ -147,12 +147,11 @@ static void write_difference(const char *path, const char *names, const struct e
 		const struct exr_channel *other = exr_find(b, a->channel[i].name);
 		if (!other || !chosen(names, a->channel[i].name))
 			continue;
-		float *out = exr_add(&d, other->name);
+		float *pixel = exr_add(&d, other->name);
 		for (size_t p = 0; p < (size_t)d.width * (size_t)d.height; p++)
-			out[p] = (float)(value(&a->channel[i], p) - value(other, p));
+			pixel[p] = (float)(value(&a->channel[i], p) - value(other, p));
 	}
-	struct out out = out_open(path, 1);
-	exr_write(&out, &d);
+	exr_write(out, &d);
 	exr_free(&d);
 }
 
@@ -185,7 +184,9 @@ int main(int argc, char **argv)
 
 	if (names)
 		must_exist(names, &a, &b);
-	struct out out = out_open(NULL, 0);
+	struct out out = out_open(NULL, 0), difference = { 0 };
+	if (picture)
+		difference = out_open(picture, 1);
 	int differ = alone(out.f, names, &a, &b, args.operand[0]) + alone(out.f, names, &b, &a, args.operand[1]) > 0, common = 0;
 	if (isnan(rms) && isnan(max) && !names)
 		differ |= other_sums(out.f, &a, &b) > 0;
@@ -221,10 +222,10 @@ int main(int argc, char **argv)
 	if (!common)
 		die(args.operand[1], "has no channel to compare with %s", args.operand[0]);
 	print(out.f, "all", &all);
+	out_close(&out);           /* before the picture: none is left behind a failure */
 	if (picture)
-		write_difference(picture, names, &a, &b, args.history);
+		write_difference(&difference, names, &a, &b, args.history);
 	exr_free(&a);
 	exr_free(&b);
-	out_close(&out);
 	return differ;
 }

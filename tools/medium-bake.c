@@ -1,6 +1,7 @@
 /* medium-bake - particles, or a size distribution with a concentration, and their optics become a medium file. */
 #include "base/die.h"
 #include "base/opt.h"
+#include "base/standard.h"
 #include "format/limits.h"
 #include "format/tab.h"
 #include "medium/bake.h"
@@ -8,9 +9,34 @@
 #include "medium/medium_file.h"
 #include "medium/particle_counts.h"
 #include "medium/particle_grid.h"
+#include "medium/provenance.h"
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
+
+/* Refuse, or where histories alone speak against it warn of, tables that do not belong together. matter is the history of what is
+ * baked, exact whether its radii are those of the cross sections: then these are good for it. */
+static void check_provenance(const char *xsect, const char *phase, int psd, int exact, const char *matter, const char *cross_sections,
+                             const char *phases)
+{
+	char *sizes = exact ? NULL : provenance_stranger(PROVENANCE_SIZES, matter, cross_sections);
+	if (sizes && psd)
+		die(standard_input(xsect), "is of other radii than --psd, and not made from it (psd %s)", sizes);
+	if (sizes)
+		warn(standard_input(xsect), "is of another size distribution than the particles, it seems (psd %s)", sizes);
+	free(sizes);
+	sizes = provenance_stranger(PROVENANCE_SIZES, matter, phases);
+	char *apart = provenance_stranger(PROVENANCE_SIZES, phases, cross_sections);
+	if (sizes && (apart || !provenance_known(PROVENANCE_SIZES, cross_sections)))
+		warn(standard_input(phase), "is of another size distribution than what is baked, it seems (psd %s)", sizes);
+	free(sizes);
+	free(apart);
+	char *optics = provenance_stranger(PROVENANCE_OPTICS, cross_sections, phases);
+	if (optics)
+		warn(standard_input(phase), "is of other particles than the cross sections, it seems (%s)", optics);
+	free(optics);
+}
 
 int main(int argc, char **argv)
 {
@@ -56,13 +82,20 @@ int main(int argc, char **argv)
 	if (psd)
 		bake_density(density, (int)voxels, &m);
 	char *history = classes_cross_sections(xsect, &m);
-	char *matter = psd ? bake_psd(psd, concentration, &m) : bake_particles(args.n ? args.operand[0] : NULL, bounded, &m);
+	int exact = 0;
+	char *matter = psd ? bake_psd(psd, concentration, &m, &exact) : bake_particles(args.n ? args.operand[0] : NULL, bounded, &m);
 	char *phases = classes_phase_functions(phase, &m);
+	check_provenance(xsect, phase, psd != NULL, exact, matter, history, phases);
 	m.history = tab_join(history, phases, matter, args.history, NULL);
 	if (m.kind == MEDIUM_PARTICLES) {
 		particle_grid_build(&m);
 		particle_counts_build(&m, (int)voxels);
 	}
 	medium_file_write(output, &m);
+	medium_free(&m);
+	free(history);
+	free(matter);
+	free(phases);
+	free(args.history);
 	return 0;
 }

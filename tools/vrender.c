@@ -4,6 +4,7 @@
 #include "base/out.h"
 #include "format/tab.h"
 #include "medium/medium_file.h"
+#include "medium/particle_grid.h"
 #include "render/backend.h"
 #include "render/image.h"
 
@@ -70,6 +71,25 @@ static void render(const struct setup *setup, struct film *film, struct cl *cl, 
 	}
 }
 
+/* Particles are not there to be looked at from inside: a camera in one is likely to be misplaced. */
+static void check_camera(const char *path, const struct scenefile *f, const struct medium *m)
+{
+	double at[3];
+	size_t one = 0;
+	for (int a = 0; a < 3; a++)
+		at[a] = f->position[a] - f->medium_position[a];
+	size_t n = particle_grid_around(m, at, &one);
+	if (!n)
+		return;
+	const float *p = m->particle + 4 * one;
+	int32_t class;
+	memcpy(&class, p + 3, sizeof class);
+	char *others = n > 1 ? xtext("%zu particles, one of them", n) : xtext("a particle");
+	warn(path, "camera.position is inside %s of radius %g um at [%g, %g, %g], which is not seen as from inside", others, m->radius[class],
+	     p[0] + f->medium_position[0], p[1] + f->medium_position[1], p[2] + f->medium_position[2]);
+	free(others);
+}
+
 int main(int argc, char **argv)
 {
 	const char *output = NULL, *part = NULL;
@@ -81,7 +101,7 @@ int main(int argc, char **argv)
 		{ "--sample-range", OPT_TEXT, &part, 0, 0, "A:B", "render samples A to B - 1 only, for exr-merge", 1 },
 		{ "--branches", OPT_INT, &branches, 1, 64, "K", "ways that a path takes from where the medium first scatters it; default: 1", 0 },
 		{ "--seed", OPT_INT, &seed, 0, 4294967295.0, "S", "of the random numbers", 0 },
-		{ "--transport", OPT_CHOICE, &transport, 0, 0, "explicit|fat-ray|grid|continuous", "model of the medium; default: explicit for particles", 0 },
+		{ "--transport", OPT_CHOICE, &transport, 0, 0, "explicit|fat-ray|grid|continuous", "model of the medium; default: explicit for particles, grid for a density that varies", 0 },
 		{ "--attenuation", OPT_CHOICE, &attenuation, 0, 0, "product|exponential", "of fat rays; exponential is biased", 0 },
 		{ "--spectral", OPT_FLAG, &spectral, 0, 0, NULL, "add a layer for every wavelength", 0 },
 		{ "--backend", OPT_CHOICE, &backend, 0, 0, "c|opencl", "what runs the kernels", 1 },
@@ -122,7 +142,7 @@ int main(int argc, char **argv)
 	medium_file_open(file.medium, &baked);
 	int asked = transport >= 0;
 	if (!asked)
-		transport = medium->kind == MEDIUM_PARTICLES ? TRANSPORT_EXPLICIT : TRANSPORT_CONTINUOUS;
+		transport = medium->kind == MEDIUM_PARTICLES ? TRANSPORT_EXPLICIT : medium_even(medium) ? TRANSPORT_CONTINUOUS : TRANSPORT_GRID;
 	else if ((transport == TRANSPORT_EXPLICIT || transport == TRANSPORT_FAT_RAY) && medium->kind != MEDIUM_PARTICLES)
 		die(file.medium, "has no particles, which explicit and fat-ray need; bake it from particles, or render it as grid or continuous");
 	if (attenuation == ATTENUATION_EXPONENTIAL && transport != TRANSPORT_FAT_RAY)
@@ -131,12 +151,15 @@ int main(int argc, char **argv)
 		die("--spectral", "the medium has %d wavelengths; an image has room for %d", medium->n_waves, IMAGE_WAVES);
 	const struct render_options options = { .transport = transport, .attenuation = attenuation, .branches = (int)branches,
 		.spectral = spectral, .seed = (uint32)seed };
+	if (transport == TRANSPORT_EXPLICIT || transport == TRANSPORT_FAT_RAY)
+		check_camera(path, &file, medium);
 	setup_make(&setup, &file, medium, &options);
 	film_make(&film, &setup.scene);
 	if (verbose)
 		warn(file.medium, "%s, %s: %zu particles, %d classes, %d wavelengths, mean optical depth %.4g along the shortest axis",
 		     (const char *[]){ "explicit", "fat-ray", "grid", "continuous" }[transport],
-		     asked ? "as asked for" : medium->kind == MEDIUM_PARTICLES ? "the default for particles" : "the default without particles",
+		     asked ? "as asked for" : (const char *[]){ "the default for particles", NULL, "the default for a density that varies",
+		         "the default for an even density" }[transport],
 		     medium->n_particles, medium->n_classes, medium->n_waves, medium_depth(medium));
 
 	struct out out = out_open(output, 1);    /* before the work, not after */

@@ -24,13 +24,15 @@ static int named(const char *variable)
 	die(variable, "'%s' is none of scalar, v2, v3, v4", name);
 }
 
+/* By features: clang does not know the levels by name. */
 static int processor_has(int level)
 {
 #ifdef __x86_64__
+#define HAS __builtin_cpu_supports
 	switch (level) {
-	case CPU_V4: return __builtin_cpu_supports("x86-64-v4");
-	case CPU_V3: return __builtin_cpu_supports("x86-64-v3");
-	case CPU_V2: return __builtin_cpu_supports("x86-64-v2");
+	case CPU_V4: return processor_has(CPU_V3) && HAS("avx512f") && HAS("avx512bw") && HAS("avx512cd") && HAS("avx512dq") && HAS("avx512vl");
+	case CPU_V3: return processor_has(CPU_V2) && HAS("avx2") && HAS("fma") && HAS("bmi") && HAS("bmi2");
+	case CPU_V2: return HAS("sse4.2") && HAS("ssse3") && HAS("popcnt");
 	}
 #endif
 	return level == CPU_SCALAR;

@@ -95,10 +95,10 @@ static const char *parse(const struct opt *o, const char *text, const double **v
 	case OPT_BOX:
 		*n = 3;
 		return box(text, o->dst);
-	case OPT_UMS:        bad = unit_lengths(text, -6, 0, o->dst); break;
-	case OPT_UM_STEPS:   bad = unit_lengths(text, -6, 1, o->dst); break;
-	case OPT_REALS:      bad = unit_reals(text, 0, o->dst); break;
-	case OPT_REAL_STEPS: bad = unit_reals(text, 1, o->dst); break;
+	case OPT_UMS:         bad = unit_lengths(text, -6, 0, o->dst); break;
+	case OPT_WAVELENGTHS: bad = unit_wavelengths(text, -6, o->dst); break;
+	case OPT_REALS:       bad = unit_reals(text, 0, o->dst); break;
+	case OPT_REAL_STEPS:  bad = unit_reals(text, 1, o->dst); break;
 	}
 	*values = ((struct reals *)o->dst)->v;
 	*n = ((struct reals *)o->dst)->n;
@@ -127,7 +127,7 @@ static void set(const struct opt *o, const char *text)
 	for (size_t i = 0; i < n && o->lo != o->hi; i++)
 		if (!(v[i] >= o->lo && v[i] <= o->hi)) {
 			range(o, span, sizeof span);
-			const char *unit = o->type == OPT_UM || o->type == OPT_UMS || o->type == OPT_UM_STEPS ? " um"
+			const char *unit = o->type == OPT_UM || o->type == OPT_UMS || o->type == OPT_WAVELENGTHS ? " um"
 			    : o->type == OPT_M || o->type == OPT_BOX ? " m" : "";
 			die(o->name, "'%s' is out of range: %s%s", text, span, unit);
 		}
@@ -185,6 +185,7 @@ struct opt_line opt_parse(const struct opt_tool *tool, int argc, char **argv)
 {
 	static struct opt_line line;     /* reachable to the end: it is nobody's to free */
 	int only_operands = 0;
+	out_fill_standard();
 	signal(SIGPIPE, SIG_DFL);        /* a parent may have left it ignored; who is cut by head ends silently */
 	line = (struct opt_line){ 0, xalloc((size_t)argc + 1, sizeof(char *)), xtext("%s", "") };
 	quote(&line.history, program_invocation_short_name);

@@ -13,7 +13,7 @@ enum opt_type {
 	OPT_CHOICE,           /* int            index into arg, the words separated by '|' */
 	OPT_UM,               /* double         a length in um */
 	OPT_UMS,              /* struct reals   lengths in um: A,B,.. or log-spaced FROM:TO:COUNT */
-	OPT_UM_STEPS,         /* struct reals   lengths in um: A,B,.. or FROM:TO:STEP */
+	OPT_WAVELENGTHS,      /* struct reals   wavelengths in um, or their frequencies: A,B,.. or FROM:TO:STEP */
 	OPT_REALS,            /* struct reals   numbers: A,B,.. or log-spaced FROM:TO:COUNT */
 	OPT_REAL_STEPS,       /* struct reals   numbers: A,B,.. or FROM:TO:STEP */
 	OPT_M,                /* double         a length in m */
@@ -46,7 +46,8 @@ struct opt_line {
 };
 
 /* opt_parse - parse argv by the table; --help and --version print and exit 0, anything wrong dies. What it returns lives
- * as long as the program; lists (struct reals) are the caller's to free. SIGPIPE gets its default back. */
+ * as long as the program; lists (struct reals) are the caller's to free. SIGPIPE gets its default back, and
+ * descriptors 0 to 2 are open from here on. */
 struct opt_line opt_parse(const struct opt_tool *tool, int argc, char **argv);
 
 /* Shared rows. */

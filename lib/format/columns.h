@@ -1,5 +1,5 @@
 /* columns - the one list of the columns by which programs understand each other's tables: name, type as it is written (any is
- * read), unit. A new column is one line here, and one in the manual page of the tool that writes it. */
+ * read), unit. A new column is one line here, its name in COLUMNS at the end, and a line in the manual page of the tool that writes it. */
 #ifndef FORMAT_COLUMNS_H
 #define FORMAT_COLUMNS_H
 
@@ -48,5 +48,13 @@ static const struct tab_col
 	column_s2_re = { "s2_re", TAB_F64, "1" },
 	column_s2_im = { "s2_im", TAB_F64, "1" },
 	column_p = { "p", TAB_F64, "sr^-1" };
+
+/* All of them, for a reader of names without units. */
+#define COLUMNS \
+	&column_wavelength, &column_radius, &column_size_parameter, &column_weight, &column_radius_lo, &column_radius_hi, \
+	&column_position[0], &column_position[1], &column_position[2], &column_class, &column_coeffs[0], &column_coeffs[1], \
+	&column_coeffs[2], &column_coeffs[3], &column_coeffs[4], &column_coeffs[5], &column_coeffs[6], &column_c_ext, \
+	&column_c_sca, &column_c_abs, &column_q_ext, &column_q_sca, &column_q_abs, &column_q_back, &column_g, &column_method, \
+	&column_error, &column_theta, &column_s1_re, &column_s1_im, &column_s2_re, &column_s2_im, &column_p
 
 #endif

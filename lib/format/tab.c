@@ -21,11 +21,6 @@ int tab_type_parse(const char *name)
 	return -1;
 }
 
-size_t tab_type_size(enum tab_type type)
-{
-	return type == TAB_F64 ? 8 : 4;
-}
-
 const char *tab_col_valid(const struct tab_col *col)
 {
 	if (!col->name[0] || col->name[strspn(col->name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_")])
@@ -49,14 +44,18 @@ const char *tab_law_valid(const char *law)
 char *tab_join(const char *first, ...)
 {
 	char *kept = xtext("\n");
+	int lines = 0;
 	va_list args;
 	va_start(args, first);
 	for (const char *text = first; text; text = va_arg(args, const char *)) {
 		char *copy = xtext("%s", text), *save = NULL;
 		for (char *line = strtok_r(copy, "\n", &save); line; line = strtok_r(NULL, "\n", &save)) {
 			char *framed = xtext("\n%s\n", line);
-			if (!strstr(kept, framed))
+			if (!strstr(kept, framed)) {
+				if (++lines > HISTORY_LINES)
+					die("history", "is of more than %d commands", HISTORY_LINES);
 				xappend(&kept, "%s\n", line);
+			}
 			free(framed);
 		}
 		free(copy);

@@ -51,7 +51,7 @@ uint64_t tab_row(const struct tab *t);
 void tab_close(struct tab *t);
 
 /* tab_join - the lines of several histories (the last argument is NULL), each once, each ending in a newline: tables that meet
- * again share their first programs. */
+ * again share their first programs. Dies where there are more than HISTORY_LINES. */
 char *tab_join(const char *first, ...) __attribute__((sentinel));
 
 struct tab_out;
@@ -72,7 +72,7 @@ void tab_finish(struct tab_out *t);
 /* tab_type_name - "i32", "f32", "f64"; tab_type_parse - the type, or -1. */
 const char *tab_type_name(enum tab_type type);
 int tab_type_parse(const char *name);
-size_t tab_type_size(enum tab_type type);
+static inline size_t tab_type_size(enum tab_type type) { return type == TAB_F64 ? 8 : 4; }
 
 /* tab_law_valid - NULL, or what is wrong with a line for a law: it is printable text, not empty, without tabs. */
 const char *tab_law_valid(const char *law);

@@ -115,6 +115,7 @@ static void column(struct tab *t, char *line)
 static void header(struct tab *t)
 {
 	size_t have = fill(t, TAB_HEADER_MAX), magic = strlen(TAB_MAGIC);
+	int commands = 0;
 	if (!have)
 		die(t->path, "is empty, not a table; the program before may have failed");
 	if (have < magic || memcmp(t->window, TAB_MAGIC, magic))
@@ -132,8 +133,11 @@ static void header(struct tab *t)
 			break;
 		*nl = 0;
 		char *line = (char *)p;
-		if (!strncmp(line, "cmd\t", 4))
+		if (!strncmp(line, "cmd\t", 4)) {
+			if (++commands > HISTORY_LINES)
+				damaged(t, "its history is of too many commands");
 			xappend(&t->history, "%s\n", line + 4);
+		}
 		else if (!strncmp(line, "col\t", 4))
 			column(t, line + 4);
 		else if (!strncmp(line, "law\t", 4) && !t->law && !tab_law_valid(line + 4))

@@ -13,9 +13,9 @@ void tab_text_write(FILE *f, struct tab *t, int n, const int *index, int csv);
 
 struct tab_text;
 
-/* tab_text_open - begin to read a text (path NULL or "-": standard input); not CSV. tab_text_columns - what its first line
- * names, n. */
-struct tab_text *tab_text_open(const char *path);
+/* tab_text_open - begin to read a text, not CSV; f remains the caller's, path is for messages. tab_text_columns - what its first
+ * line names, n. */
+struct tab_text *tab_text_open(FILE *f, const char *path);
 const struct tab_col *tab_text_columns(const struct tab_text *t, int *n);
 
 /* tab_text_law - the law there, or NULL. */

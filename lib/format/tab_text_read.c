@@ -1,23 +1,17 @@
 #include "format/tab_text.h"
 
 #include "base/die.h"
-#include "base/standard.h"
 #include "format/limits.h"
+#include "format/text_lines.h"
 
-#include <errno.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 struct tab_text {
-	FILE *f;
-	const char *path;        /* for messages */
+	struct text_lines in;
 	int n;
 	struct tab_col cols[TAB_COLS];
 	char *law;
-	char *line;
-	size_t room;
-	long number;             /* of the line */
 };
 
 /* "# name:type:unit<TAB>name:type:unit...<TAB>law=..", the law if there is one. */
@@ -59,55 +53,22 @@ static int columns(const char *path, char *line, struct tab_col *cols, char **la
 	return n;
 }
 
-static void values(const char *path, long number, char *line, int n, const struct tab_col *cols, double *out)
+static int next_line(struct text_lines *t)
 {
-	char *c = line;
-	for (int i = 0; i < n; i++) {
-		char *tab = strchr(c, '\t'), *end;
-		if (!tab != (i == n - 1))
-			die(path, "line %ld: %s than %d columns", number, tab ? "more" : "fewer", n);
-		if (tab)
-			*tab = 0;
-		errno = 0;
-		out[i] = strtod(c, &end);
-		if (end == c || *end || *c == ' ' || strpbrk(c, "xX"))
-			die(path, "line %ld: column %s: '%s' is not a number", number, cols[i].name, c);
-		if (isinf(out[i]) && errno == ERANGE)
-			die(path, "line %ld: column %s: '%s' is too large", number, cols[i].name, c);
-		c = tab + 1;
-	}
-}
-
-/* The next line, without its end; 0 at the end of the file. */
-static int next_line(struct tab_text *t)
-{
-	ssize_t length = getline(&t->line, &t->room, t->f);
-	if (length < 0) {
-		if (ferror(t->f))
-			die(t->path, "cannot read:");
+	if (!text_lines_next(t))
 		return 0;
-	}
-	t->number++;
-	if (memchr(t->line, 0, (size_t)length))
-		die(t->path, "line %ld: has a NUL byte", t->number);
-	if (!length || t->line[length - 1] != '\n')
-		die(t->path, "line %ld: is cut short (no newline)", t->number);
-	t->line[length - 1] = 0;
-	if (length > 1 && t->line[length - 2] == '\r')
+	size_t length = strlen(t->line);
+	if (length && t->line[length - 1] == '\r')
 		die(t->path, "line %ld: ends in a carriage return; lines end in a newline alone", t->number);
 	return 1;
 }
 
-struct tab_text *tab_text_open(const char *path)
+struct tab_text *tab_text_open(FILE *f, const char *path)
 {
 	struct tab_text *t = xalloc(1, sizeof *t);
-	t->path = standard_input(path);
-	t->f = standard(path) ? stdin : fopen(path, "r");
-	if (!t->f)
-		die(t->path, "cannot open:");
-	if (!next_line(t))
-		die(t->path, "is empty");
-	t->n = columns(t->path, t->line, t->cols, &t->law);
+	t->in = (struct text_lines){ .f = f, .path = path };
+	next_line(&t->in);
+	t->n = columns(path, t->in.line, t->cols, &t->law);
 	return t;
 }
 
@@ -121,17 +82,24 @@ const char *tab_text_law(const struct tab_text *t) { return t->law; }
 
 int tab_text_next(struct tab_text *t, double *row)
 {
-	if (!next_line(t))
+	if (!next_line(&t->in))
 		return 0;
-	values(t->path, t->number, t->line, t->n, t->cols, row);
+	char *c = t->in.line;
+	for (int i = 0; i < t->n; i++) {
+		char *tab = strchr(c, '\t');
+		if (!tab != (i == t->n - 1))
+			die(t->in.path, "line %ld: %s than %d columns", t->in.number, tab ? "more" : "fewer", t->n);
+		if (tab)
+			*tab = 0;
+		row[i] = text_lines_number(&t->in, t->cols[i].name, c);
+		c = tab + 1;
+	}
 	return 1;
 }
 
 void tab_text_close(struct tab_text *t)
 {
-	if (t->f != stdin)
-		fclose(t->f);
 	free(t->law);
-	free(t->line);
+	free(t->in.line);
 	free(t);
 }

@@ -65,10 +65,12 @@ struct tab_out *tab_create(const char *path, const char *history, const char *co
 	memcpy(t->cols, cols, (size_t)ncols * sizeof *cols);
 	t->block = xalloc(WRITE_BLOCK, 1);
 	t->crc = (uint32_t)crc32(0, NULL, 0);
+	size_t header = strlen(TAB_MAGIC) + 1;
 	emit(t, TAB_MAGIC, strlen(TAB_MAGIC));
 	char *lines = tab_join(history, command, NULL), *save = NULL;
 	for (char *line = strtok_r(lines, "\n", &save); line; line = strtok_r(NULL, "\n", &save)) {
 		char *text = xtext("cmd\t%s\n", line);
+		header += strlen(text);
 		emit(t, text, strlen(text));
 		free(text);
 	}
@@ -86,11 +88,14 @@ struct tab_out *tab_create(const char *path, const char *history, const char *co
 			if (!strcmp(cols[i].name, cols[j].name))
 				die(cols[i].name, "a column of this name stands twice");
 		char *text = xtext("col\t%s\t%s\t%s\n", cols[i].name, tab_type_name(cols[i].type), cols[i].unit);
+		header += strlen(text);
 		emit(t, text, strlen(text));
 		free(text);
 		t->row_size += tab_type_size(cols[i].type);
 	}
 	emit(t, "\n", 1);
+	if (header > TAB_HEADER_MAX)
+		die(standard_output(t->out.path), "its history is too long: no header is above %u bytes", TAB_HEADER_MAX);
 	return t;
 }
 

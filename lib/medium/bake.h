@@ -10,11 +10,11 @@
 void bake_density(const char *path, int longest, struct medium *m);
 
 /* bake_psd - expected counts by class from a table of radius (um) and weight (sum 1), at a concentration (m^-3) where the density
- * is 1; after bake_density. Returns the table's history. */
-char *bake_psd(const char *path, double concentration, struct medium *m);
+ * is 1; after bake_density. *exact: whether all radii are the classes' own. Returns the table's history. */
+char *bake_psd(const char *path, double concentration, struct medium *m, int *exact);
 
 /* bake_particles - particles from a table of x, y, z (m) and radius (um), path NULL: standard input. bounded: the shape is
- * given, and none may lie outside; else it becomes the bounding box about the origin. Returns the table's history. */
+ * given, about the origin, and none may lie outside; else it becomes the bounding box, and the centre its middle. Returns the table's history. */
 char *bake_particles(const char *path, int bounded, struct medium *m);
 
 #endif

@@ -54,18 +54,20 @@ void bake_density(const char *path, int longest, struct medium *m)
 		free(g.v);
 }
 
-char *bake_psd(const char *path, double concentration, struct medium *m)
+char *bake_psd(const char *path, double concentration, struct medium *m, int *exact)
 {
 	struct tab *t = tab_open(path);
 	int radius = tab_need(t, &column_radius), weight = tab_need(t, &column_weight);
 	struct law_check *law = law_check_begin(t);
 	double row[TAB_COLS], sum = 0;
+	*exact = 1;
 	while (tab_next(t, row)) {
 		law_check_row(law, row);
 		unsigned long long number = (unsigned long long)tab_row(t);
 		int class = classes_find(m, t, row[radius]);
 		if (!(row[weight] >= 0) || !isfinite(row[weight]))
 			die(tab_path(t), "row %llu: weight %g is not a finite number of at least 0", number, row[weight]);
+		*exact &= classes_exact(m, class, row[radius]);
 		m->count[class] += row[weight];
 		sum += row[weight];
 	}

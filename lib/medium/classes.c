@@ -120,6 +120,8 @@ int classes_find(const struct medium *m, const struct tab *t, double radius)
 	return class;
 }
 
+int classes_exact(const struct medium *m, int class, double radius) { return same(m->radius[class], radius); }
+
 /* -------------------------------------------------------------------- phase functions */
 
 /* A phase function as tabulated: theta in rad. */
@@ -174,7 +176,6 @@ static void append(struct medium *m, int class, const struct curve *grid, const 
 	m->n_nodes += n;
 	m->theta = xgrow(m->theta, m->n_nodes, sizeof *m->theta);
 	m->p = xgrow(m->p, m->n_nodes * waves, sizeof *m->p);
-	m->cdf = xgrow(m->cdf, m->n_nodes * waves, sizeof *m->cdf);
 	for (size_t i = 0; i < n; i++)
 		m->theta[at + i] = (float)grid->theta[i];
 	for (size_t w = 0; w < waves; w++) {
@@ -183,7 +184,6 @@ static void append(struct medium *m, int class, const struct curve *grid, const 
 		double norm = phase_integral(grid->n, grid->theta, p);
 		for (size_t i = 0; i < n; i++)
 			m->p[(at + i) * waves + w] = (float)(p[i] / norm);
-		phase_cdf(grid->n, grid->theta, p, m->n_waves, m->cdf + at * waves + w);
 	}
 	m->node[2 * class] = (int32_t)at;
 	m->node[2 * class + 1] = grid->n;
@@ -208,7 +208,8 @@ static void curve_check(const struct tab *t, struct curve *c, double wavelength,
 		grid.p[i] = phase_at(c->n, c->theta, c->p, grid.theta[i]);
 	double norm = phase_integral(grid.n, grid.theta, grid.p);
 	if (!(fabs(norm - 1) <= 0.01))
-		die(tab_path(t), "%s: the integral over the sphere is %.4f, more than 1 %% off 1", what, norm);
+		die(tab_path(t), "%s: the integral over the sphere is %.4f, more than 1 %% off 1: its angles are too few for its peaks "
+		    "(leave out --angles, or take more), or p is not normalised", what, norm);
 	for (int i = 0; i < c->n; i++)
 		c->p[i] /= norm;
 	free(grid.theta);

@@ -18,4 +18,7 @@ char *classes_phase_functions(const char *path, struct medium *m);
  * neighbouring class (outermost: the same gap outwards; a single class: 1e-6). Dies, with the row of t, if it fits none. */
 int classes_find(const struct medium *m, const struct tab *t, double radius);
 
+/* classes_exact - whether a radius is the class's own, within 1e-9. */
+int classes_exact(const struct medium *m, int class, double radius);
+
 #endif

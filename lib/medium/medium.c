@@ -1,6 +1,7 @@
 #include "medium/medium.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 double medium_volume(const struct medium *m)
 {
@@ -13,4 +14,20 @@ double medium_depth(const struct medium *m)
 	for (int k = 0; k < m->n_classes; k++)
 		c += m->count[k] * m->c_ext[k * m->n_waves];
 	return c * 1e-12 / medium_volume(m) * 2 * fmin(m->half[0], fmin(m->half[1], m->half[2]));
+}
+
+int medium_even(const struct medium *m)
+{
+	int even = m->kind == MEDIUM_DENSITY;
+	for (size_t i = 1; i < m->n_density && even; i++)
+		even = m->density[i] == m->density[0];
+	return even;
+}
+
+void medium_free(struct medium *m)
+{
+	void *const own[] = { m->history, m->wavelength, m->radius, m->count, m->c_ext, m->c_sca, m->node, m->theta, m->p,
+		m->particle, m->first, m->voxel_count, m->density };
+	for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+		free(own[i]);
 }

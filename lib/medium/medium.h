@@ -13,7 +13,8 @@ enum medium_kind { MEDIUM_PARTICLES, MEDIUM_DENSITY };
 struct medium {
 	enum medium_kind kind;
 	char *history;                  /* cmd lines as in tab(5) */
-	int round;                      /* a sphere of radius half[0], else a box; centred on the origin */
+	double centre[3];               /* m, where the user's coordinates have the middle; all that follows is relative to it */
+	int round;                      /* a sphere of radius half[0], else a box */
 	double half[3];                 /* m */
 	int n_waves, n_classes;
 	double *wavelength;             /* [wave] um, ascending */
@@ -24,7 +25,6 @@ struct medium {
 	int32_t *node;                  /* [class][2] first node and number of nodes; class n_classes is the whole medium's mixture */
 	float *theta;                   /* [node] rad */
 	float *p;                       /* [node][wave] sr^-1, normalised */
-	uint32_t *cdf;                  /* [node][wave], see phase_cdf */
 	size_t n_particles;             /* of MEDIUM_PARTICLES, as is all to voxel_count */
 	float *particle;                /* [particle][4] x y z m, the bits of an int32 class; in the order of the cells */
 	int32_t cells[3];               /* the grid over the centres */
@@ -45,5 +45,11 @@ double medium_volume(const struct medium *m);
 
 /* medium_depth - mean optical depth along the shortest axis at the first wavelength. */
 double medium_depth(const struct medium *m);
+
+/* medium_even - is the density the same everywhere? Not of particles. */
+int medium_even(const struct medium *m);
+
+/* medium_free - one whose arrays are its own: a baked one, not one of a file (medium_file_close). */
+void medium_free(struct medium *m);
 
 #endif

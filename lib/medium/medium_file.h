@@ -12,7 +12,7 @@ struct medium_file {
 	size_t size;
 };
 
-/* medium_file_write - write a file (not standard output: it is mapped when read). Dies. */
+/* medium_file_write - write a file (not standard output: it is mapped when read), if medium_check has nothing against it. Dies. */
 void medium_file_write(const char *path, const struct medium *m);
 
 /* medium_file_open - verify a file by one sequential read, map it and check it by medium_check. Dies. */

@@ -65,6 +65,13 @@ static int fields(char *line, char **field, int most)
 	return n;
 }
 
+/* A whole number; -1 where an int32 does not hold it. */
+static int32_t whole(const char *text)
+{
+	long long v = strtoll(text, NULL, 10);
+	return v < 0 || v > INT32_MAX ? -1 : (int32_t)v;
+}
+
 static void shape(const char *path, struct medium *m, char *line)
 {
 	char *f[5];
@@ -73,8 +80,18 @@ static void shape(const char *path, struct medium *m, char *line)
 	m->round = !strcmp(f[1], "sphere");
 	for (int a = 0; a < 3; a++) {
 		m->half[a] = strtod(f[2 + a], NULL);
-		if (!(m->half[a] > 0 && m->half[a] < 1e9))
-			damaged(path, "bad shape line");
+	}
+}
+
+static void centre(const char *path, struct medium *m, char *line)
+{
+	char *f[4], *end;
+	if (fields(line, f, 4) != 4)
+		damaged(path, "bad centre line");
+	for (int a = 0; a < 3; a++) {
+		m->centre[a] = strtod(f[1 + a], &end);
+		if (end == f[1 + a] || *end || !(fabs(m->centre[a]) <= 1e9))
+			damaged(path, "bad centre line");
 	}
 }
 
@@ -84,11 +101,9 @@ static void grid(const char *path, struct medium *m, char *line)
 	if (fields(line, f, 10) != 10)
 		damaged(path, "bad grid line");
 	for (int a = 0; a < 3; a++) {
-		m->cells[a] = (int32_t)strtol(f[1 + a], NULL, 10);
+		m->cells[a] = whole(f[1 + a]);
 		m->low[a] = strtof(f[4 + a], NULL);
 		m->cell[a] = strtof(f[7 + a], NULL);
-		if (m->cells[a] < 0 || m->cells[a] > MEDIUM_CELLS_SIDE || !isfinite(m->low[a]) || !isfinite(m->cell[a]))
-			damaged(path, "bad grid line");
 	}
 }
 
@@ -97,28 +112,36 @@ static void voxels(const char *path, struct medium *m, char *line)
 	char *f[6];
 	if (fields(line, f, 6) != 6)
 		damaged(path, "bad voxels line");
-	for (int a = 0; a < 3; a++) {
-		m->voxels[a] = (int32_t)strtol(f[1 + a], NULL, 10);
-		if (m->voxels[a] < 1 || m->voxels[a] > MEDIUM_VOXELS_SIDE)
-			damaged(path, "bad voxels line");
-	}
+	for (int a = 0; a < 3; a++)
+		m->voxels[a] = whole(f[1 + a]);
 	m->voxel = strtod(f[4], NULL);
 	m->matter = strtod(f[5], NULL);
-	if (!(m->voxel >= 0 && m->voxel < 1e9) || !(m->matter >= 0 && m->matter < 1e30))
-		damaged(path, "bad voxels line");
+}
+
+static size_t aligned(size_t at) { return (at + MEDIUM_ALIGN - 1) / MEDIUM_ALIGN * MEDIUM_ALIGN; }
+
+/* The array at *at of n elements of a size; moves on. */
+static void *array(const char *path, const struct medium_file *f, size_t *at, uint64_t n, size_t size)
+{
+	*at = aligned(*at);
+	char *p = (char *)f->map + *at;
+	if (n > f->size / size || *at + n * size > f->size - MEDIUM_TRAILER)
+		damaged(path, "a section does not fit the file");
+	*at += (size_t)n * size;
+	return p;
 }
 
 /* Where the arrays lie: behind the header, which ends at at. */
-static void arrays(const char *path, struct medium_file *f, size_t at, const uint64_t *n)
+static void arrays(const char *path, struct medium_file *f, size_t at, const uint64_t *n, uint64_t former)
 {
 	for (int i = 0; i < N_SECTIONS; i++) {
-		at = (at + MEDIUM_ALIGN - 1) / MEDIUM_ALIGN * MEDIUM_ALIGN;
-		size_t size = medium_layout[i].size;
-		if (n[i] > f->size / size || at + n[i] * size > f->size - MEDIUM_TRAILER)
-			damaged(path, "a section does not fit the file");
-		*(void **)(void *)((char *)&f->medium + medium_layout[i].offset) = (char *)f->map + at;
-		at += (size_t)n[i] * size;
+		if (i == SECTION_particle && former)
+			array(path, f, &at, former, sizeof(uint32_t));
+		void *p = array(path, f, &at, n[i], medium_layout[i].size);
+		*(void **)(void *)((char *)&f->medium + medium_layout[i].offset) = p;
 	}
+	if (aligned(at) + MEDIUM_TRAILER != f->size)
+		damaged(path, "its sections are not all of the file");
 }
 
 static void header(const char *path, struct medium_file *f, uint64_t *n)
@@ -126,7 +149,8 @@ static void header(const char *path, struct medium_file *f, uint64_t *n)
 	struct medium *m = &f->medium;
 	size_t most = f->size < MEDIUM_HEADER_MAX ? f->size : MEDIUM_HEADER_MAX, at = strlen(MEDIUM_MAGIC);
 	const char *text = f->map;
-	int section = 0, lines = 0;
+	int section = 0, lines = 0, commands = 0;
+	uint64_t former = 0;
 	m->history = xtext("%s", "");
 	for (;;) {
 		const char *nl = memchr(text + at, '\n', most - at);
@@ -141,10 +165,14 @@ static void header(const char *path, struct medium_file *f, uint64_t *n)
 			break;
 		}
 		if (!strncmp(line, "cmd\t", 4)) {
+			if (++commands > HISTORY_LINES)
+				damaged(path, "its history is of too many commands");
 			xappend(&m->history, "%s\n", line + 4);
 		} else if (!strncmp(line, "shape\t", 6)) {
 			shape(path, m, line);
 			lines |= 1;
+		} else if (!strncmp(line, "centre\t", 7)) {
+			centre(path, m, line);
 		} else if (!strncmp(line, "grid\t", 5)) {
 			grid(path, m, line);
 			lines |= 2;
@@ -153,37 +181,36 @@ static void header(const char *path, struct medium_file *f, uint64_t *n)
 			lines |= 4;
 		} else {
 			char *word[3];
-			if (fields(line, word, 3) != 3 || strcmp(word[0], "section") || section == N_SECTIONS
-			    || strcmp(word[1], medium_layout[section].name))
+			int some = fields(line, word, 3) == 3 && !strcmp(word[0], "section") && section < N_SECTIONS;
+			if (some && section == SECTION_particle && !former && !strcmp(word[1], MEDIUM_FORMER))
+				former = strtoull(word[2], NULL, 10);
+			else if (some && !strcmp(word[1], medium_layout[section].name))
+				n[section++] = strtoull(word[2], NULL, 10);
+			else
 				damaged(path, "bad header line");
-			n[section++] = strtoull(word[2], NULL, 10);
 		}
 		free(line);
 	}
 	if (section != N_SECTIONS || lines != 7)
 		damaged(path, "header not complete");
-	arrays(path, f, at, n);
+	arrays(path, f, at, n, former);
 }
 
 static void counts_in(const char *path, struct medium *m, const uint64_t *n)
 {
 	const uint64_t waves = n[SECTION_wavelength], classes = n[SECTION_radius], nodes = n[SECTION_theta];
-	const uint64_t particles = n[SECTION_particle] / 4;
 	uint64_t want[N_SECTIONS];
-	if (waves < 1 || waves > MEDIUM_WAVES || classes < 1 || classes > MEDIUM_CLASSES || nodes > INT32_MAX || particles > INT32_MAX)
-		damaged(path, "counts out of range");
-	m->n_waves = (int)waves;
-	m->n_classes = (int)classes;
+	m->n_waves = waves <= MEDIUM_WAVES ? (int)waves : -1;
+	m->n_classes = classes <= MEDIUM_CLASSES ? (int)classes : -1;
 	m->n_nodes = (size_t)nodes;
-	m->n_particles = (size_t)particles;
+	m->n_particles = (size_t)n[SECTION_particle] / 4;
 	m->kind = m->n_particles ? MEDIUM_PARTICLES : MEDIUM_DENSITY;
 	m->n_first = (size_t)n[SECTION_first];
 	m->n_voxel_count = (size_t)n[SECTION_voxel_count];
 	m->n_density = (size_t)n[SECTION_density];
-	/* the kernels index nodes, cells and voxels by int */
-	if ((double)nodes * (double)waves > INT32_MAX || n[SECTION_first] > INT32_MAX || n[SECTION_voxel_count] > INT32_MAX
-	    || n[SECTION_density] > INT32_MAX)
-		damaged(path, "too large");
+	const char *wrong = medium_check_sizes(m);
+	if (wrong)
+		damaged(path, wrong);
 	medium_layout_counts(m, want);
 	if (memcmp(want, n, sizeof want))
 		damaged(path, "sections do not agree");
@@ -206,7 +233,9 @@ void medium_file_open(const char *path, struct medium_file *f)
 	close(fd);
 	header(path, f, n);
 	counts_in(path, &f->medium, n);
-	medium_check(path, &f->medium);
+	const char *wrong = medium_check(&f->medium);
+	if (wrong)
+		damaged(path, wrong);
 }
 
 void medium_file_close(struct medium_file *f)

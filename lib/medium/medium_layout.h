@@ -18,7 +18,6 @@
 	SECTION(node, int32_t, 2 * (classes + 1)) \
 	SECTION(theta, float, m->n_nodes) \
 	SECTION(p, float, m->n_nodes * waves) \
-	SECTION(cdf, uint32_t, m->n_nodes * waves) \
 	SECTION(particle, float, 4 * m->n_particles) \
 	SECTION(first, uint32_t, m->n_first) \
 	SECTION(voxel_count, uint32_t, m->n_voxel_count) \
@@ -32,6 +31,9 @@ struct medium_layout {
 	const char *name;
 	size_t offset, size;     /* of the pointer in struct medium; of an element */
 };
+
+/* An array that files of before have in front of that of particles: 4 bytes an element of p. Nobody needs it. */
+#define MEDIUM_FORMER "cdf"
 
 extern const struct medium_layout medium_layout[N_SECTIONS];
 

@@ -38,6 +38,12 @@ static size_t cube_of(const struct medium *m, const float *q)
 	return (i[2] * (size_t)m->voxels[1] + i[1]) * (size_t)m->voxels[0] + i[0];
 }
 
+/* The number of a cube in its level. */
+static size_t cube_at(const int32_t *size, int32_t x, int32_t y, int32_t z)
+{
+	return ((size_t)z * (size_t)size[1] + (size_t)y) * (size_t)size[0] + (size_t)x;
+}
+
 /* Add the counts of level l into those of the next. */
 static void condense(struct medium *m, int l)
 {
@@ -47,8 +53,7 @@ static void condense(struct medium *m, int l)
 	for (int32_t z = 0; z < fine[2]; z++)
 		for (int32_t y = 0; y < fine[1]; y++)
 			for (int32_t x = 0; x < fine[0]; x++) {
-				size_t f = from + ((size_t)z * (size_t)fine[1] + (size_t)y) * (size_t)fine[0] + (size_t)x;
-				size_t c = to + ((size_t)(z / 2) * (size_t)coarse[1] + (size_t)(y / 2)) * (size_t)coarse[0] + (size_t)(x / 2);
+				size_t f = from + cube_at(fine, x, y, z), c = to + cube_at(coarse, x / 2, y / 2, z / 2);
 				for (size_t k = 0; k < classes; k++)
 					m->voxel_count[c * classes + k] += m->voxel_count[f * classes + k];
 			}
@@ -74,4 +79,35 @@ void particle_counts_build(struct medium *m, int longest)
 	int32_t size[3];
 	for (int l = 0; particle_counts_level(m->voxels, l, size), size[0] > 1 || size[1] > 1 || size[2] > 1; l++)
 		condense(m, l);
+}
+
+int particle_counts_agree(const struct medium *m)
+{
+	const size_t classes = (size_t)m->n_classes;
+	int32_t fine[3], coarse[3];
+	particle_counts_level(m->voxels, 0, fine);
+	for (int l = 0; fine[0] > 1 || fine[1] > 1 || fine[2] > 1; l++) {
+		size_t from = particle_counts_level(m->voxels, l, fine), to = particle_counts_level(m->voxels, l + 1, coarse);
+		for (int32_t z = 0; z < coarse[2]; z++)
+			for (int32_t y = 0; y < coarse[1]; y++)
+				for (int32_t x = 0; x < coarse[0]; x++) {
+					const uint32_t *c = m->voxel_count + (to + cube_at(coarse, x, y, z)) * classes;
+					for (size_t k = 0; k < classes; k++) {
+						uint64_t sum = 0;
+						for (int i = 0; i < 8; i++) {
+							const int32_t at[3] = { 2 * x + (i & 1), 2 * y + (i >> 1 & 1), 2 * z + (i >> 2) };
+							if (at[0] < fine[0] && at[1] < fine[1] && at[2] < fine[2])
+								sum += m->voxel_count[(from + cube_at(fine, at[0], at[1], at[2])) * classes + k];
+						}
+						if (sum != c[k])
+							return 0;
+					}
+				}
+		memcpy(fine, coarse, sizeof fine);
+	}
+	const uint32_t *top = m->voxel_count + m->n_voxel_count - classes;
+	for (size_t k = 0; k < classes; k++)
+		if (top[k] != m->count[k])
+			return 0;
+	return 1;
 }

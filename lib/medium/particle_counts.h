@@ -16,4 +16,7 @@ size_t particle_counts_size(const int32_t *n);
  * in one. */
 void particle_counts_build(struct medium *m, int longest);
 
+/* particle_counts_agree - whether every level sums the one before, and the last, one cube, has the medium's counts by class. */
+int particle_counts_agree(const struct medium *m);
+
 #endif

@@ -92,3 +92,40 @@ void particle_grid_build(struct medium *m)
 	free(m->particle);
 	m->particle = sorted;
 }
+
+int particle_grid_agrees(const struct medium *m)
+{
+	for (size_t c = 0; c + 1 < m->n_first; c++)
+		for (size_t i = m->first[c]; i < m->first[c + 1]; i++)
+			if (home(m, m->particle + 4 * i) != c)
+				return 0;
+	return 1;
+}
+
+size_t particle_grid_around(const struct medium *m, const double at[3], size_t *one)
+{
+	double largest = m->radius[m->n_classes - 1] * 1e-6;
+	size_t found = 0;
+	int low[3], high[3];
+	for (int a = 0; a < 3; a++) {
+		low[a] = index_of(m, a, at[a] - largest);
+		high[a] = index_of(m, a, at[a] + largest);
+	}
+	for (int z = low[2]; z <= high[2]; z++)
+		for (int y = low[1]; y <= high[1]; y++) {
+			size_t row = ((size_t)z * (size_t)m->cells[1] + (size_t)y) * (size_t)m->cells[0];
+			for (size_t i = m->first[row + (size_t)low[0]]; i < m->first[row + (size_t)high[0] + 1]; i++) {
+				const float *p = m->particle + 4 * i;
+				int32_t class;
+				memcpy(&class, p + 3, sizeof class);
+				double r = m->radius[class] * 1e-6, d2 = 0;
+				for (int a = 0; a < 3; a++)
+					d2 += (at[a] - p[a]) * (at[a] - p[a]);
+				if (d2 < r * r) {
+					*one = i;
+					found++;
+				}
+			}
+		}
+	return found;
+}

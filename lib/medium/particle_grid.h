@@ -7,4 +7,11 @@
 /* particle_grid_build - choose the cells so that a ray costs least, and sort the particles into their order. */
 void particle_grid_build(struct medium *m);
 
+/* particle_grid_agrees - whether every particle lies in the cell that has it. */
+int particle_grid_agrees(const struct medium *m);
+
+/* particle_grid_around - how many particles, spheres of their class's radius, contain a point (m, in the medium's coordinates);
+ * *one is one of them. */
+size_t particle_grid_around(const struct medium *m, const double at[3], size_t *one);
+
 #endif

@@ -9,7 +9,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define HOPELESS 10000000        /* points tried without one kept */
+#define TRIAL 10000000           /* points after which it is told whether it ends: */
+#define SPARSE 1e-5              /* a share of them that is kept */
 
 enum { PLACES, CLASSES, NUMBER };        /* streams of random numbers */
 
@@ -76,19 +77,31 @@ static double inside(double v, double half)
 	return fabs((double)f) <= half ? f : nextafterf(f, 0);
 }
 
-/* Densities over their maximum: the chance that a point is kept. */
-static double scale(struct npy_grid *g, const char *name)
+/* How far from 0 the part of [-1, 1] begins in which voxel i of n counts, being interpolated. */
+static double nearest(size_t i, size_t n)
 {
-	double top = 0, sum = 0;
-	size_t n = g->nx * g->ny * g->nz;
-	for (size_t i = 0; i < n; i++) {
-		top = fmax(top, g->v[i]);
-		sum += g->v[i];
-	}
+	double low = (2 * (double)i - 1) / (double)n - 1, high = (2 * (double)i + 3) / (double)n - 1;
+	return fmax(fmax(low, -high), 0);
+}
+
+/* The largest density that can be met in the box, or in the sphere in it: densities over that are the chance that a point is kept. */
+static double scale(const struct npy_grid *g, const char *name, int round)
+{
+	double top = 0, sum = 0, n = 0;
+	for (size_t z = 0, i = 0; z < g->nz; z++)
+		for (size_t y = 0; y < g->ny; y++)
+			for (size_t x = 0; x < g->nx; x++, i++) {
+				if (round && pow(nearest(x, g->nx), 2) + pow(nearest(y, g->ny), 2) + pow(nearest(z, g->nz), 2) > 1)
+					continue;
+				top = fmax(top, g->v[i]);
+				sum += g->v[i];
+				n++;
+			}
+	const char *where = round ? "in the sphere" : "everywhere";
 	if (!(top > 0))
-		die(name, "is 0 everywhere");
-	if (sum / (double)n < 1e-4 * top)
-		die(name, "has a mean less than 1e-4 of its maximum; crop it, or raise the rest");
+		die(name, "is 0 %s", where);
+	if (sum / n < 1e-4 * top)
+		die(name, "has a mean less than 1e-4 of its maximum%s; crop it, or raise the rest", round ? " in the sphere" : "");
 	return top;
 }
 
@@ -101,7 +114,7 @@ struct placement *placement_new(const struct placement_request *r, struct tab *s
 	p->top = 1;
 	if (density) {
 		p->grid = npy_density(density);
-		p->top = scale(&p->grid, density);
+		p->top = scale(&p->grid, density, r->round);
 	}
 	p->tries = INFINITY;
 	p->count = r->count;
@@ -119,26 +132,29 @@ struct placement *placement_new(const struct placement_request *r, struct tab *s
 
 int placement_next(struct placement *p, struct placed *out)
 {
-	const double *box = p->asked.box;
-	while ((double)p->tried < p->tries && (double)p->kept < p->count) {
-		uint64_t i = p->tried++;
+	const double *box = p->asked.box, tries = p->tries;
+	const uint64_t seed = p->asked.seed;
+	const int round = p->asked.round;
+	if (!((double)p->kept < p->count))
+		return 0;
+	for (uint64_t i = p->tried; (double)i < tries; i++) {
 		uint32_t w[4];
 		double u[4];
-		if (i == HOPELESS && !p->kept && p->tries == INFINITY)
-			die(p->density, "is 0 almost everywhere in the sphere");
-		rng_block(p->asked.seed, i, PLACES, w);
+		if (i == TRIAL && (double)p->kept < SPARSE * TRIAL && p->density)
+			die(p->density, "keeps fewer than %g of all points%s; crop it, or raise the rest", SPARSE, round ? " in the sphere" : "");
+		rng_block(seed, i, PLACES, w);
 		for (int j = 0; j < 4; j++)
 			u[j] = rng_unit32(w[j]);
-		double q[3] = { 2 * u[0] - 1, 2 * u[1] - 1, 2 * u[2] - 1 };
-		if (p->asked.round && q[0] * q[0] + q[1] * q[1] + q[2] * q[2] > 1)
+		double x = 2 * u[0] - 1, y = 2 * u[1] - 1, z = 2 * u[2] - 1;
+		if (round && x * x + y * y + z * z > 1)
 			continue;
 		if (p->density && u[3] * p->top >= density_at(&p->grid, u[0], u[1], u[2]))
 			continue;
-		rng_block(p->asked.seed, i, CLASSES, w);
-		out->class = draw(&p->sizes, rng_unit53(w[0], w[1]));
-		out->radius = p->sizes.radius[out->class];
-		for (int a = 0; a < 3; a++)
-			out->at[a] = inside(q[a] * box[a] / 2, box[a] / 2);
+		rng_block(seed, i, CLASSES, w);
+		size_t class = draw(&p->sizes, rng_unit53(w[0], w[1]));
+		*out = (struct placed){ { inside(x * box[0] / 2, box[0] / 2), inside(y * box[1] / 2, box[1] / 2),
+		    inside(z * box[2] / 2, box[2] / 2) }, p->sizes.radius[class], class };
+		p->tried = i + 1;
 		p->kept++;
 		return 1;
 	}

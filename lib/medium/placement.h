@@ -6,6 +6,8 @@
 #include "format/npy.h"
 #include "format/tab.h"
 
+#include <stdint.h>
+
 #define PLACEMENT_MOST 1e12      /* particles, and points tried */
 
 /* What is asked for. */

@@ -15,7 +15,8 @@ void render_c(const struct setup *u, struct film *f, uint32 pixel, uint32 pixels
 /* The same by OpenCL, whose device holds the tables and a copy of the film. Each dies with one line on any failure. */
 struct cl;
 void cl_list(FILE *out);           /* a line a device: number, name, kind, platform, memory */
-struct cl *cl_start(const struct setup *u, const struct film *f, int device, int verbose);    /* -1: the first GPU, or else the first; verbose says which */
+/* device -1: the first GPU, or else the first; verbose says which */
+struct cl *cl_start(const struct setup *u, const struct film *f, int device, int verbose);
 int cl_wide(const struct cl *c);   /* whether it wants very many pixels at once, as a GPU does */
 void cl_render(struct cl *c, uint32 pixel, uint32 pixels, uint32 first, uint32 n);    /* of the pixels [pixel, pixel + pixels) */
 void cl_read(const struct cl *c, struct film *f);     /* the device's film as it is by now, in place of what f holds */

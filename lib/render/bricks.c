@@ -102,7 +102,7 @@ void bricks_make(struct bricks *b, const struct medium *m)
 		if (kept * one > INT32_MAX)
 			die("medium", "has too many voxels to render as a grid: %zu x %d are filled", kept, BRICK_CELLS);
 		if (!pass) {
-			b->n_voxel = kept * one;
+			b->n_voxel = (kept ? kept : 1) * one;    /* lanes that are out of it read the first */
 			b->voxel = xalloc(b->n_voxel, sizeof *b->voxel);
 		}
 	}

@@ -52,6 +52,17 @@ static double integrate(size_t n, const double *weight, uint32 *cdf)
 	return sum;
 }
 
+double envmap_fluence(const struct envmap *m)
+{
+	double sum = 0;
+	for (int r = 0; r < m->height; r++)
+		for (int c = 0; c < m->width; c++) {
+			const float *texel = m->rgb + 3 * ((size_t)r * (size_t)m->width + (size_t)c);
+			sum += (0.2126 * texel[0] + 0.7152 * texel[1] + 0.0722 * texel[2]) * sin(M_PI * (r + 0.5) / m->height);
+		}
+	return sum * 2 * M_PI * M_PI / m->width / m->height;
+}
+
 size_t envmap_cdf(const struct envmap *m, uint32 **cdf)
 {
 	size_t width = (size_t)m->width, height = (size_t)m->height, n = height + 1 + height * (width + 1);

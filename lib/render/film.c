@@ -20,9 +20,9 @@ int film_pixel(const struct film *f, size_t pixel, int64 *out)
 		int64 *own = &out[SUM_OF(0, c)];
 		if (c >= f->channels)
 			memcpy(own, out, 3 * sizeof *own);
-		else
-			overflow |= __builtin_add_overflow(own[SUM_ALL], own[SUM_SINGLE], &own[SUM_ALL])
-			    | __builtin_add_overflow(own[SUM_ALL], own[SUM_MULTIPLE], &own[SUM_ALL]);
+		else    /* what was seen unscattered, and the rest */
+			for (int kind = SUM_SINGLE; kind <= SUM_MULTIPLE; kind++)
+				overflow |= __builtin_add_overflow(own[SUM_ALL], own[kind], &own[SUM_ALL]);
 	}
 	return !overflow;
 }

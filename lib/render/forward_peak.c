@@ -53,7 +53,10 @@ static double truncation_of(const struct row *r)
 	return high;
 }
 
-static int by_value(const void *a, const void *b) { return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b); }
+static int by_value(const void *a, const void *b)
+{
+	return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b);
+}
 
 /* The nodes of the peak: the table's, and where a wavelength crosses its truncation. Returns how many; theta may be NULL. */
 static int nodes(const struct medium *m, int class, const float *truncation, float *theta)
@@ -105,31 +108,24 @@ void forward_peak_make(struct forward_peak *k, const struct medium *m, int class
 	k->range = xalloc((size_t)k->n_classes, 2 * sizeof *k->range);
 	k->theta = xalloc(old + n, sizeof *k->theta);
 	k->p = xalloc(old + n, waves * sizeof *k->p);
-	k->cdf = xalloc(old + n, waves * sizeof *k->cdf);
 	memcpy(k->range, m->node, 2 * (size_t)(m->n_classes + 1) * sizeof *k->range);
 	memcpy(k->theta, m->theta, old * sizeof *k->theta);
 	memcpy(k->p, m->p, old * waves * sizeof *k->p);
-	memcpy(k->cdf, m->cdf, old * waves * sizeof *k->cdf);
 	if (!high)
 		return;
 	k->range[2 * (m->n_classes + 1)] = (int32_t)old;
 	k->range[2 * (m->n_classes + 1) + 1] = (int32_t)n;
 	nodes(m, class, k->truncation, k->theta + old);
-	double *theta = xalloc(n, sizeof *theta), *p = xalloc(n, sizeof *p);
 	for (size_t w = 0; w < waves; w++) {
 		size_t at = (size_t)m->node[2 * class], last = at + (size_t)m->node[2 * class + 1] - 2;
 		for (size_t i = 0; i < n; i++) {
 			while (at < last && m->theta[at + 1] <= k->theta[old + i])
 				at++;
 			double p0 = m->p[at * waves + w], p1 = m->p[(at + 1) * waves + w];
-			theta[i] = k->theta[old + i];
-			p[i] = fmax(0, p0 + (p1 - p0) * (theta[i] - m->theta[at]) / ((double)m->theta[at + 1] - m->theta[at]) - k->truncation[w]);
-			k->p[(old + i) * waves + w] = (float)p[i];
+			double along = ((double)k->theta[old + i] - m->theta[at]) / ((double)m->theta[at + 1] - m->theta[at]);
+			k->p[(old + i) * waves + w] = (float)fmax(0, p0 + (p1 - p0) * along - k->truncation[w]);
 		}
-		phase_cdf((int)n, theta, p, m->n_waves, k->cdf + old * waves + w);
 	}
-	free(theta);
-	free(p);
 }
 
 void forward_peak_free(struct forward_peak *k)
@@ -138,5 +134,4 @@ void forward_peak_free(struct forward_peak *k)
 	free(k->range);
 	free(k->theta);
 	free(k->p);
-	free(k->cdf);
 }

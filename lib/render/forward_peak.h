@@ -11,7 +11,6 @@ struct forward_peak {
 	int n_classes;
 	int32_t *range;            /* [class][2] */
 	float *theta, *p;          /* [node], [node][wave]; those of the peak are not normalised */
-	uint32_t *cdf;             /* [node][wave] */
 };
 
 /* forward_peak_make - class: whose peak; -1 for none. */

@@ -11,12 +11,16 @@
 #include <string.h>
 
 /* Names of the sums. */
-static const char *const names[FILM_SUMS] = { "R", "single.R", "multiple.R", "A", "depth.Z", "Y", NULL, NULL, "YY0", "YY1",
-	"G", "single.G", "multiple.G", "B", "single.B", "multiple.B" };
+static const char *const names[FILM_SUMS] = { "R", "single.R", "multiple.R", "A", "depth.Z", "Y", "AB", NULL, "YY0", "YY1",
+	"G", "single.G", "multiple.G", "B", "single.B", "multiple.B", "AR", "AG" };
+
+/* Those of a spectral image, each for all wavelengths, are named by these and the wavelength. */
+static const char *const spectral[] = { "S0.", "A." };
 
 /* Those that, divided by the unit and the samples, are finished channels. */
 static const int finished[] = { SUM_OF(SUM_ALL, 0), SUM_OF(SUM_ALL, 1), SUM_OF(SUM_ALL, 2), SUM_OF(SUM_SINGLE, 0), SUM_OF(SUM_SINGLE, 1),
-	SUM_OF(SUM_SINGLE, 2), SUM_OF(SUM_MULTIPLE, 0), SUM_OF(SUM_MULTIPLE, 1), SUM_OF(SUM_MULTIPLE, 2), SUM_ALPHA };
+	SUM_OF(SUM_SINGLE, 2), SUM_OF(SUM_MULTIPLE, 0), SUM_OF(SUM_MULTIPLE, 1), SUM_OF(SUM_MULTIPLE, 2), SUM_ALPHA, SUM_ALPHA_RED,
+	SUM_ALPHA_GREEN, SUM_ALPHA_BLUE };
 
 typedef unsigned __int128 uint128;
 
@@ -113,6 +117,8 @@ int image_whole(const struct image *m)
 	return m->n_ranges == 1 && m->range[0][0] == 0 && (!m->total || m->range[0][1] == m->total);
 }
 
+int image_complete(const struct image *m) { return m->total && image_whole(m); }
+
 /* -------------------------------------------------------------------- from the renderer */
 
 void image_of(struct image *out, const struct scene *s, const struct film *f, const struct medium *m, long long from, long long to,
@@ -120,16 +126,16 @@ void image_of(struct image *out, const struct scene *s, const struct film *f, co
 {
 	char *line = total ? xtext("%s --samples %lld", command, total) : xtext("%s", command);
 	*out = (struct image){ .width = f->width, .height = f->height, .n_sums = f->n_sums, .film = f,
-		.n_waves = s->spectral ? m->n_waves : 0, .depth_exponent = -ilogbf(s->depth_scale), .n_ranges = 1,
+		.n_spectral = f->n_sums - FILM_SUMS, .coloured = s->n_waves > 1, .depth_exponent = -ilogbf(s->depth_scale), .n_ranges = 1,
 		.total = total, .history = tab_join(history, line, NULL) };
 	free(line);
 	out->range = xalloc(1, sizeof *out->range);
 	out->range[0][0] = from;
 	out->range[0][1] = to;
-	out->wave = xalloc((size_t)out->n_waves, sizeof *out->wave);
-	for (int w = 0; w < out->n_waves; w++) {
-		snprintf(out->wave[w], EXR_NAME, "S0.%.6fnm", m->wavelength[w] * 1000);
-		*strrchr(out->wave[w], '.') = ',';
+	out->wave = xalloc((size_t)out->n_spectral, sizeof *out->wave);
+	for (int k = 0; k < out->n_spectral; k++) {
+		snprintf(out->wave[k], EXR_NAME, "%s%.6fnm", spectral[k / m->n_waves], m->wavelength[k % m->n_waves] * 1000);
+		*strrchr(out->wave[k], '.') = ',';
 	}
 }
 
@@ -155,22 +161,29 @@ static const int64 *sums_of(const struct image *m, size_t pixel, int64 *room)
 	return room;
 }
 
+static int in_use(const struct image *m, int sum)
+{
+	int colour = sum == SUM_ALPHA_RED || sum == SUM_ALPHA_GREEN || sum == SUM_ALPHA_BLUE;
+	return sum >= FILM_SUMS || (names[sum] && (!colour || m->coloured));
+}
+
 static void layers(struct exr *e, const struct image *m)
 {
 	enum { N = sizeof finished / sizeof *finished };
 	long long n = samples(m);
-	float **out = xalloc(N + (size_t)m->n_waves, sizeof *out);
+	float **out = xalloc(N + (size_t)m->n_spectral, sizeof *out);
 	int64 *room = xalloc((size_t)m->n_sums, sizeof *room);
 	for (int k = 0; k < N; k++)
-		out[k] = exr_add(e, names[finished[k]]);
-	for (int w = 0; w < m->n_waves; w++)
+		out[k] = in_use(m, finished[k]) ? exr_add(e, names[finished[k]]) : NULL;
+	for (int w = 0; w < m->n_spectral; w++)
 		out[N + w] = exr_add(e, m->wave[w]);
 	float *depth = exr_add(e, "depth.Z"), *spread = exr_add(e, "variance.Y"), *count = exr_add(e, "count");
 	e->channel[e->n - 1].is_uint = 1;
 	for (size_t i = 0; i < pixels(m); i++) {
 		const int64 *sum = sums_of(m, i, room);
-		for (int k = 0; k < N + m->n_waves; k++)
-			out[k][i] = (float)((double)sum[k < N ? finished[k] : FILM_SUMS + k - N] / FILM_UNIT / (double)n);
+		for (int k = 0; k < N + m->n_spectral; k++)
+			if (out[k])
+				out[k][i] = (float)((double)sum[k < N ? finished[k] : FILM_SUMS + k - N] / FILM_UNIT / (double)n);
 		depth[i] = sum[SUM_ALPHA] ? (float)ldexp((double)sum[SUM_DEPTH] / (double)sum[SUM_ALPHA], m->depth_exponent) : 0;
 		spread[i] = (float)variance(sum, n);
 		memcpy(&count[i], &(uint32_t){ (uint32_t)n }, 4);
@@ -180,8 +193,6 @@ static void layers(struct exr *e, const struct image *m)
 }
 
 /* -------------------------------------------------------------------- sums, each as two channels of 32 bits */
-
-static int in_use(int sum) { return sum >= FILM_SUMS || names[sum]; }
 
 static char *half_name(const struct image *m, int sum, int half)
 {
@@ -193,7 +204,7 @@ static void put_sums(struct exr *e, const struct image *m)
 	float **out = xalloc(2 * (size_t)m->n_sums, sizeof *out);
 	int64 *room = xalloc((size_t)m->n_sums, sizeof *room);
 	for (int k = 0; k < 2 * m->n_sums; k++) {
-		if (!in_use(k / 2))
+		if (!in_use(m, k / 2))
 			continue;
 		char *name = half_name(m, k / 2, k % 2);
 		out[k] = exr_add(e, name);
@@ -213,7 +224,7 @@ static void put_sums(struct exr *e, const struct image *m)
 static void get_sums(const char *path, const struct exr *e, struct image *m)
 {
 	for (int k = 0; k < 2 * m->n_sums; k++) {
-		if (!in_use(k / 2))
+		if (!in_use(m, k / 2))
 			continue;
 		char *name = half_name(m, k / 2, k % 2);
 		const struct exr_channel *c = exr_find(e, name);
@@ -257,10 +268,12 @@ void image_read(const char *path, struct image *m)
 		die(path, "damaged image: its depthUnit is none");
 	free(again);
 	m->wave = xalloc((size_t)e.n, sizeof *m->wave);
-	for (int i = 0; i < e.n; i++)
-		if (!strncmp(e.channel[i].name, "S0.", 3))
-			strcpy(m->wave[m->n_waves++], e.channel[i].name);
-	m->n_sums = FILM_SUMS + m->n_waves;
+	for (int k = 0; k < 2; k++)
+		for (int i = 0; i < e.n; i++)
+			if (!strncmp(e.channel[i].name, spectral[k], strlen(spectral[k])))
+				strcpy(m->wave[m->n_spectral++], e.channel[i].name);
+	m->coloured = exr_find(&e, "AR") != NULL;
+	m->n_sums = FILM_SUMS + m->n_spectral;
 	m->sum = xalloc(pixels(m), (size_t)m->n_sums * sizeof *m->sum);
 	get_sums(path, &e, m);
 	for (size_t i = 0; i < pixels(m); i++)
@@ -280,8 +293,9 @@ void image_merge(struct image *into, const struct image *more, const char *path)
 	if (into->width != more->width || into->height != more->height)
 		die(path, "is not of the same image as those before it: it is %d x %d pixels, not %d x %d", more->width, more->height,
 		    into->width, into->height);
-	if (into->depth_exponent != more->depth_exponent || into->n_waves != more->n_waves || into->total != more->total
-	    || memcmp(into->wave, more->wave, (size_t)more->n_waves * sizeof *more->wave))
+	if (into->depth_exponent != more->depth_exponent || into->n_spectral != more->n_spectral || into->coloured != more->coloured
+	    || into->total != more->total
+	    || memcmp(into->wave, more->wave, (size_t)more->n_spectral * sizeof *more->wave))
 		die(path, "is not of the same image as those before it: its layers are others");
 	into->range = xgrow(into->range, (size_t)(into->n_ranges + more->n_ranges), sizeof *into->range);
 	memcpy(into->range + into->n_ranges, more->range, (size_t)more->n_ranges * sizeof *more->range);
@@ -313,7 +327,7 @@ void image_write(struct out *out, const struct image *m, int sums)
 		e.history = xtext("%.*s --samples %lld\n", (int)strlen(m->history) - 1, m->history, samples(m));
 	}
 	layers(&e, m);
-	if (m->n_waves) {
+	if (m->n_spectral) {
 		exr_set_text(&e, "spectralLayoutVersion", "1.0");
 		exr_set_text(&e, "emissiveUnits", "W.m^-2.sr^-1");
 	}

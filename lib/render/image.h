@@ -8,19 +8,20 @@
 #include "render/film.h"
 
 #define IMAGE_SAMPLES 1000000000     /* a pixel, at most */
-#define IMAGE_WAVES 320              /* of a spectral image, at most: each takes three channels of a part */
+#define IMAGE_WAVES 320              /* of a spectral image, at most: each takes six channels of a part */
 
 struct image {
 	int width, height;
 	int n_sums;                  /* of a pixel: see kern/film.h */
 	const struct film *film;     /* that has the sums; else they are */
 	int64 *sum;                  /* [pixel][n_sums] */
-	int n_waves;                 /* of a spectral image, else 0 */
+	int coloured;                /* alpha has a colour */
+	int n_spectral;              /* sums of a spectral image: radiance at each wavelength, then alpha; else 0 */
 	char (*wave)[EXR_NAME];      /* their channels' names */
 	int depth_exponent;          /* depths are in units of 2^(depth_exponent - 30) m */
 	int n_ranges;                /* of samples: [from, to), ascending, apart from each other */
 	long long (*range)[2];
-	long long total;             /* samples of the whole image; 0: any range from 0 on is a whole image */
+	long long total;             /* samples of the whole image; 0: not known */
 	char *history;               /* with --samples where total is known */
 };
 
@@ -42,8 +43,10 @@ void image_read(const char *path, struct image *out);
  * or the sum is out of range. */
 void image_merge(struct image *into, const struct image *more, const char *path);
 
-/* image_whole - do the samples make up the whole image? */
+/* image_whole - can the samples be a whole image: from 0 on without a gap, as many as there are to be where that is known? image_complete -
+ * are they all of an image whose number of samples is known, so that none can be added? */
 int image_whole(const struct image *m);
+int image_complete(const struct image *m);
 
 /* image_write - write the layers, and the sums where asked for. Dies. */
 void image_write(struct out *out, const struct image *m, int sums);

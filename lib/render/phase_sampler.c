@@ -85,9 +85,29 @@ static int divisions(size_t waves, double a, double b, const float *p0, const fl
 	return (int)fmin(16, ceil(sqrt(fmax(worst, 1e-9) / 0.02)));
 }
 
-static struct table divide(int n, size_t waves, const float *theta, const float *p, const uint32_t *cdf)
+/* [node][wave] the probability of a smaller angle, in units of 2^-32, rounded: it never falls, and ends at 2^32. */
+static uint64_t *shares_below(int n, size_t waves, const float *theta, const float *p)
+{
+	uint64_t *below = xalloc((size_t)n, waves * sizeof *below);
+	double *sum = xalloc((size_t)n, sizeof *sum);
+	for (size_t w = 0; w < waves; w++) {
+		for (int i = 0; i + 1 < n; i++) {
+			const float *at = p + (size_t)i * waves + w;
+			sum[i + 1] = sum[i] + fmax(0, phase_interval(theta[i], (double)theta[i + 1] - theta[i], at[0], at[waves]));
+		}
+		for (int i = 1; i < n; i++) {
+			double share = sum[n - 1] > 0 ? sum[i] / sum[n - 1] : 1;
+			below[(size_t)i * waves + w] = i + 1 < n ? (uint64_t)floor(share * 0x1p32 + 0.5) : (uint64_t)1 << 32;
+		}
+	}
+	free(sum);
+	return below;
+}
+
+static struct table divide(int n, size_t waves, const float *theta, const float *p)
 {
 	struct table t = { 1, NULL, NULL, NULL };
+	uint64_t *below = shares_below(n, waves, theta, p), *given = xalloc(waves, sizeof *given);
 	int room = 1;
 	for (int i = 0; i + 1 < n; i++)
 		room += divisions(waves, theta[i], theta[i + 1], p + (size_t)i * waves, p + (size_t)(i + 1) * waves);
@@ -102,19 +122,21 @@ static struct table divide(int n, size_t waves, const float *theta, const float 
 		double h = (double)theta[i + 1] - theta[i];
 		for (int d = 1; d <= k; d++, t.n++) {
 			t.theta[t.n] = d < k ? (float)(theta[i] + h * d / k) : theta[i + 1];
-			double f = (t.theta[t.n] - theta[i]) / h, f0 = (t.theta[t.n - 1] - theta[i]) / h;
+			double f = (t.theta[t.n] - theta[i]) / h;
 			for (size_t w = 0; w < waves; w++) {
-				uint64_t from = cdf[(size_t)i * waves + w], to = i + 2 < n ? cdf[(size_t)(i + 1) * waves + w] : (uint64_t)1 << 32;
-				double d0 = (double)p1[w] - p0[w], whole = phase_interval(theta[i], h, p0[w], p1[w]), unit = whole > 0 ? 1 / whole : 0;
-				double before = unit * phase_interval(theta[i], f0 * h, p0[w], p0[w] + f0 * d0);
-				double after = unit * phase_interval(theta[i], f * h, p0[w], p0[w] + f * d0);
-				uint64_t a = d == 1 ? 0 : (uint64_t)llrint(before * (double)(to - from));
-				uint64_t b = d == k ? to - from : (uint64_t)llrint(after * (double)(to - from));
+				uint64_t *share = t.share + (size_t)(t.n - 1) * waves + w;
+				uint64_t all = below[(size_t)(i + 1) * waves + w] - below[(size_t)i * waves + w], before = d > 1 ? given[w] : 0;
+				double d0 = (double)p1[w] - p0[w], whole = phase_interval(theta[i], h, p0[w], p1[w]);
+				double part = phase_interval(theta[i], f * h, p0[w], p0[w] + f * d0);
+				double now = whole > 0 ? rint(part / whole * (double)all) : 0;
+				given[w] = d < k ? (uint64_t)fmin(fmax(now, (double)before), (double)all) : all;
+				*share = given[w] - before;
 				t.p[(size_t)t.n * waves + w] = d < k ? (float)(p0[w] + f * d0) : p1[w];
-				t.share[(size_t)(t.n - 1) * waves + w] = b - a;
 			}
 		}
 	}
+	free(below);
+	free(given);
 	return t;
 }
 
@@ -160,8 +182,7 @@ static void fill_intervals(const struct table *t, size_t waves, float *out)
 	}
 }
 
-void phase_sampler_make(struct phase_sampler *a, int n_classes, int n_waves, const int32_t *range, const float *theta, const float *p,
-                 const uint32_t *cdf)
+void phase_sampler_make(struct phase_sampler *a, int n_classes, int n_waves, const int32_t *range, const float *theta, const float *p)
 {
 	size_t waves = (size_t)n_waves, columns = 0, intervals = 0;
 	*a = (struct phase_sampler){ .isotropic = 1, .n_phase = PHASE_ROW * (size_t)n_classes, .n_angle = 2 * ANGLE_STEPS * (size_t)n_classes };
@@ -171,7 +192,7 @@ void phase_sampler_make(struct phase_sampler *a, int n_classes, int n_waves, con
 		size_t first = (size_t)range[2 * k], nodes = (size_t)range[2 * k + 1];
 		for (size_t i = 0; i < nodes * waves; i++)
 			a->isotropic &= fabs(p[first * waves + i] * 4 * M_PI - 1) < 1e-6;
-		struct table t = divide((int)nodes, waves, theta + first, p + first * waves, cdf + first * waves);
+		struct table t = divide((int)nodes, waves, theta + first, p + first * waves);
 		const int32_t row[PHASE_ROW] = { [PHASE_INTERVAL] = (int32_t)intervals, [PHASE_COLUMN] = (int32_t)columns,
 			[PHASE_SHIFT] = shift_of(t.n - 1), [PHASE_STEP] = (int32_t)(2 * ANGLE_STEPS * k) };
 		size_t from = columns;

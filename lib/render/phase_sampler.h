@@ -15,9 +15,8 @@ struct phase_sampler {
 };
 
 /* phase_sampler_make - of the phase tables of n_classes classes, as in struct medium: range[class][2], theta[node] rad ascending from 0 to pi,
- * p[node][wave], cdf[node][wave]. Dies where an index would pass 2^31. */
-void phase_sampler_make(struct phase_sampler *a, int n_classes, int n_waves, const int32_t *range, const float *theta, const float *p,
-                 const uint32_t *cdf);
+ * p[node][wave], of any norm. Dies where an index would pass 2^31. */
+void phase_sampler_make(struct phase_sampler *a, int n_classes, int n_waves, const int32_t *range, const float *theta, const float *p);
 
 void phase_sampler_free(struct phase_sampler *a);
 

@@ -12,6 +12,7 @@
 
 #define SIDE_MAX 16384
 #define TEXT_MAX (1 << 20)
+#define KEYS_MAX 4096          /* libconfig looks for each key among those before */
 
 static void bad(const char *path, const config_setting_t *at, const char *fmt, ...) __attribute__((noreturn, format(printf, 3, 4)));
 static void bad(const char *path, const config_setting_t *at, const char *fmt, ...)
@@ -24,11 +25,27 @@ static void bad(const char *path, const config_setting_t *at, const char *fmt, .
 	die(path, "line %u: %s", config_setting_source_line(at), text);
 }
 
+/* Where a setting stands: "camera.fov", "lights[1].radiance[0]". */
+#define KEY_MAX 128
+static const char *key_of(const config_setting_t *s, char text[KEY_MAX])
+{
+	const config_setting_t *group = config_setting_parent(s);
+	char above[KEY_MAX] = "";
+	if (group && !config_setting_is_root(group))
+		key_of(group, above);
+	if (config_setting_name(s))
+		snprintf(text, KEY_MAX, "%.80s%s%.40s", above, *above ? "." : "", config_setting_name(s));
+	else
+		snprintf(text, KEY_MAX, "%.80s[%d]", above, config_setting_index(s));
+	return text;
+}
+#define KEY(s) key_of(s, (char[KEY_MAX]){ 0 })
+
 /* Every key of a group must be one of the words. */
 static void only(const char *path, const config_setting_t *group, const char *words)
 {
 	if (!config_setting_is_group(group))
-		bad(path, group, "must be a group { .. }");
+		bad(path, group, "%s must be one group { .. } (known there: %s)", KEY(group), words);
 	for (int i = 0; i < config_setting_length(group); i++) {
 		const config_setting_t *s = config_setting_get_elem(group, (unsigned)i);
 		const char *name = config_setting_name(s);
@@ -48,10 +65,10 @@ static double value(const char *path, const config_setting_t *s)
 	case CONFIG_TYPE_INT: v = config_setting_get_int(s); break;
 	case CONFIG_TYPE_INT64: v = (double)config_setting_get_int64(s); break;
 	case CONFIG_TYPE_FLOAT: v = config_setting_get_float(s); break;
-	default: bad(path, s, "must be a number");
+	default: bad(path, s, "%s must be a number", KEY(s));
 	}
 	if (!isfinite(v))
-		bad(path, s, "must be finite");
+		bad(path, s, "%s must be finite", KEY(s));
 	return v;
 }
 
@@ -59,7 +76,7 @@ static config_setting_t *need(const char *path, config_setting_t *group, const c
 {
 	config_setting_t *s = config_setting_get_member(group, name);
 	if (!s)
-		bad(path, group, "needs a key '%s'", name);
+		bad(path, group, "%s needs a key '%s'", KEY(group), name);
 	return s;
 }
 
@@ -68,18 +85,18 @@ static double number(const char *path, config_setting_t *group, const char *name
 	config_setting_t *s = need(path, group, name);
 	double v = value(path, s);
 	if (!(v >= low && v <= high))
-		bad(path, s, "%s %g is out of range (%g to %g)", name, v, low, high);
+		bad(path, s, "%s %g is out of range (%g to %g)", KEY(s), v, low, high);
 	return v;
 }
 
 static void numbers(const char *path, config_setting_t *s, int n, double *out)
 {
 	if (!config_setting_is_aggregate(s) || config_setting_is_group(s) || config_setting_length(s) != n)
-		bad(path, s, "must be %d numbers [a, b%s]", n, n == 3 ? ", c" : "");
+		bad(path, s, "%s must be %d numbers [a, b%s]", KEY(s), n, n == 3 ? ", c" : "");
 	for (int i = 0; i < n; i++) {
 		out[i] = value(path, config_setting_get_elem(s, (unsigned)i));
 		if (!(fabs(out[i]) <= 1e9))
-			bad(path, s, "%g is out of range (at most 1e9)", out[i]);
+			bad(path, s, "%s %g is out of range (at most 1e9)", KEY(s), out[i]);
 	}
 }
 
@@ -101,7 +118,7 @@ static void camera(const char *path, config_setting_t *g, struct scenefile *s)
 	config_setting_t *resolution = need(path, g, "resolution");
 	numbers(path, resolution, 2, size);
 	if (size[0] != floor(size[0]) || size[1] != floor(size[1]) || size[0] < 1 || size[1] < 1 || size[0] > SIDE_MAX || size[1] > SIDE_MAX)
-		bad(path, resolution, "resolution is two whole numbers from 1 to %d", SIDE_MAX);
+		bad(path, resolution, "camera.resolution is two whole numbers from 1 to %d", SIDE_MAX);
 	s->width = (int)size[0];
 	s->height = (int)size[1];
 	double d[3], c[3], n = 0;
@@ -112,7 +129,7 @@ static void camera(const char *path, config_setting_t *g, struct scenefile *s)
 		n += c[i] * c[i];
 	}
 	if (!(n > 0) || !isfinite(n))
-		bad(path, g, "position, target and up do not span a view");
+		bad(path, g, "camera: position, target and up do not span a view");
 }
 
 /* A strength: one number for white, or linear RGB. */
@@ -125,7 +142,7 @@ static void strength(const char *path, config_setting_t *group, const char *name
 		rgb[0] = rgb[1] = rgb[2] = value(path, s);
 	for (int i = 0; i < 3; i++)
 		if (!(rgb[i] >= 0 && rgb[i] <= 1e9))
-			bad(path, s, "%s %g is out of range (0 to 1e+09)", name, rgb[i]);
+			bad(path, s, "%s %g is out of range (0 to 1e+09)", KEY(s), rgb[i]);
 }
 
 /* The scene's folder and a relative name make a path. */
@@ -145,11 +162,11 @@ static void sun(const char *path, config_setting_t *g, struct sun *sun)
 	numbers(path, direction, 3, sun->direction);
 	double length = fabs(sun->direction[0]) + fabs(sun->direction[1]) + fabs(sun->direction[2]);
 	if (!(length > 1e-9))
-		bad(path, direction, "direction must be longer than 1e-9");
+		bad(path, direction, "%s must be longer than 1e-9", KEY(direction));
 	strength(path, g, "irradiance", sun->irradiance);
 	sun->angle = config_setting_get_member(g, "angle") ? number(path, g, "angle", 0, 180) : 0;
 	if (sun->angle > 0 && sun->angle < 0.01)
-		bad(path, g, "angle is 0 (parallel light) or at least 0.01 degrees");
+		bad(path, g, "%s.angle is 0 (parallel light) or at least 0.01 degrees", KEY(g));
 }
 
 static void quad(const char *path, config_setting_t *g, struct quad *quad)
@@ -166,14 +183,14 @@ static void quad(const char *path, config_setting_t *g, struct quad *quad)
 		b2 += b[i] * b[i];
 	}
 	if (!(a2 > 1e-24 && a2 < 1e18 && b2 > 1e-24 && b2 < 1e18 && normal2 > 1e-8 * a2 * b2))
-		bad(path, g, "edge1 and edge2 do not span a quad (from 1e-12 to 1e9 m, at an angle above 1e-4)");
+		bad(path, g, "%s: edge1 and edge2 do not span a quad (from 1e-12 to 1e9 m, at an angle above 1e-4)", KEY(g));
 }
 
 static void light(const char *path, config_setting_t *g, struct scenefile *s)
 {
 	double rgb[3] = { 1, 1, 1 };
 	if (!config_setting_is_group(g))
-		bad(path, g, "a light is a group { type = ..; }");
+		bad(path, g, "%s must be a group { type = ..; }", KEY(g));
 	config_setting_t *t = need(path, g, "type"), *file = config_setting_get_member(g, "file");
 	const char *type = config_setting_get_string(t);
 	int sky = type && !strcmp(type, "environment");
@@ -183,7 +200,7 @@ static void light(const char *path, config_setting_t *g, struct scenefile *s)
 		only(path, g, "type file radiance");
 		const char *name = config_setting_get_string(file);
 		if (!name || !*name)
-			bad(path, file, "file must be a string");
+			bad(path, file, "%s must be a string", KEY(file));
 		if (s->map.width)
 			bad(path, g, "a second environment map");
 		if (config_setting_get_member(g, "radiance"))
@@ -203,7 +220,7 @@ static void light(const char *path, config_setting_t *g, struct scenefile *s)
 		s->light[s->n_lights].kind = LIGHT_QUAD;
 		quad(path, g, &s->light[s->n_lights++].quad);
 	} else {
-		bad(path, t, "type must be \"environment\", \"sun\" or \"quad\"");
+		bad(path, t, "%s must be \"environment\", \"sun\" or \"quad\"", KEY(t));
 	}
 }
 
@@ -270,6 +287,10 @@ static char *whole(const char *path, FILE *f)
 		die(path, "is larger than %d bytes", TEXT_MAX);
 	if (strlen(text) != n)
 		die(path, "has a NUL byte");
+	int keys = 0;
+	for (const char *c = text; *(c += strcspn(c, "=:")); c++)
+		if (++keys > KEYS_MAX)
+			die(path, "has more than %d keys", KEYS_MAX);
 	for (const char *line = text; line; line = strchr(line, '\n') ? strchr(line, '\n') + 1 : NULL)
 		if (!strncmp(line + strspn(line, " \t"), "@include", 8))
 			die(path, "@include is not known in a scene");
@@ -306,7 +327,7 @@ void scenefile_read(const char *path, struct scenefile *s)
 	only(path, g, "file position");
 	const char *name = config_setting_get_string(need(path, g, "file"));
 	if (!name || !*name)
-		bad(path, g, "file must be a string");
+		bad(path, g, "medium.file must be a string");
 	s->medium = beside(path, name);
 	optional3(path, g, "position", s->medium_position);
 

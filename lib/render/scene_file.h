@@ -38,7 +38,8 @@ struct scenefile {
 	char *history;             /* one line: the scene in canonical form, without file names */
 };
 
-/* scenefile_read - read and check a scene ("-": standard input, whose folder is the current one); dies with its line on a misspelt or missing key or a bad value. */
+/* scenefile_read - read and check a scene ("-": standard input, whose folder is the current one); dies with its line on a misspelt or
+ * missing key or a bad value. */
 void scenefile_read(const char *path, struct scenefile *s);
 
 void scenefile_free(struct scenefile *s);

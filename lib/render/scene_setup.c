@@ -6,20 +6,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-void unit(double *v)
+void setup_unit(double *v)
 {
 	double n = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 	for (int i = 0; i < 3; i++)
 		v[i] /= n;
 }
 
-void cross(const double *a, const double *b, double *out)
+void setup_cross(const double *a, const double *b, double *out)
 {
 	for (int i = 0; i < 3; i++)
 		out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-void to_floats(const double *v, float *out)
+void setup_floats(const double *v, float *out)
 {
 	for (int i = 0; i < 3; i++)
 		out[i] = (float)v[i];
@@ -39,18 +39,24 @@ static int channels(const struct setup *u, const struct scenefile *file)
 	return all ? 1 : 3;
 }
 
-/* Depths are from the eye to anywhere in the volume. */
-static float depth_scale(const struct scene *s)
+double setup_reach(const struct volume *v)
 {
-	const struct volume *v = &s->volume;
-	double eye = 0, corner = 0;
-	int exponent;
+	double corner = 0;
 	for (int a = 0; a < 3; a++) {
 		double most = fmax(v->extent[v->round ? 0 : a], v->cells[a] ? fabs(v->grid_centre[a]) + v->grid_reached[a] : 0);
-		eye += (double)s->camera.eye[a] * s->camera.eye[a];
 		corner += most * most;
 	}
-	frexp(sqrt(eye) + sqrt(corner), &exponent);
+	return sqrt(corner);
+}
+
+/* Depths are from the eye to anywhere in the volume. */
+static float depth_scale(const struct setup *u, const struct scenefile *f)
+{
+	double eye = 0;
+	int exponent;
+	for (int a = 0; a < 3; a++)
+		eye += pow((float)(f->position[a] - u->origin[a]), 2);
+	frexp(sqrt(eye) + setup_reach(&u->scene.volume), &exponent);
 	return (float)ldexp(1, -exponent);
 }
 
@@ -69,13 +75,15 @@ void setup_make(struct setup *u, const struct scenefile *file, const struct medi
 	s->carried = (medium->n_waves + s->n_groups - 1) / s->n_groups;
 	for (int i = 0; i < file->n_lights; i++)
 		suns |= file->light[i].kind == LIGHT_SUN;
-	camera_setup(&s->camera, file);
+	for (int a = 0; a < 3; a++)
+		u->origin[a] = file->medium_position[a] + medium->centre[a];
 	volume_setup(u, file, medium, suns);
 	light_setup(u, file);
+	camera_setup(u, file);
 	s->channels = channels(u, file);
 	s->spectral = options->spectral;
-	s->film_sums = FILM_SUMS + (s->spectral ? s->n_waves : 0);
-	s->depth_scale = depth_scale(s);
+	s->film_sums = FILM_SUMS + (s->spectral ? 2 * s->n_waves : 0);
+	s->depth_scale = depth_scale(u, file);
 }
 
 void setup_free(struct setup *u)

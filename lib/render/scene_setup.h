@@ -17,6 +17,7 @@ enum { N_TABLES = TABLES(TABLE_ONE, TABLE_ONE) };
 
 struct setup {
 	struct scene scene;
+	double origin[3];          /* of the kernels' coordinates, the medium's centre, in the scene's */
 	struct tables tables;
 	struct table_sizes size;   /* their elements, of 4 bytes */
 	/* what is made here of the medium, and tables that nobody else owns */

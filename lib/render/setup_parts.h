@@ -10,12 +10,16 @@
 /* setup_own - setup_free frees p. */
 void *setup_own(struct setup *u, void *p);
 
-/* v to length 1; *out = a x b; v as floats. */
-void unit(double *v);
-void cross(const double *a, const double *b, double *out);
-void to_floats(const double *v, float *out);
+/* setup_unit - v to length 1. setup_cross - out = a x b. setup_floats - v rounded. Of three elements each. */
+void setup_unit(double *v);
+void setup_cross(const double *a, const double *b, double *out);
+void setup_floats(const double *v, float *out);
 
-void camera_setup(struct camera *c, const struct scenefile *f);
+/* setup_reach - how far from the origin the volume goes, m. */
+double setup_reach(const struct volume *v);
+
+/* camera_setup - needs the volume and the surfaces: rays begin where these do. */
+void camera_setup(struct setup *u, const struct scenefile *f);
 
 /* volume_setup - needs the transport; suns: whether there are lights of which a forward peak makes spikes. */
 void volume_setup(struct setup *u, const struct scenefile *f, const struct medium *m, int suns);

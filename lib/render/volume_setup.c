@@ -64,7 +64,7 @@ static void phases(struct setup *u, const struct medium *m, int suns)
 	struct volume *v = &u->scene.volume;
 	struct forward_peak peak;
 	forward_peak_make(&peak, m, suns ? v->only_class : -1);
-	phase_sampler_make(&u->sampler, peak.n_classes, m->n_waves, peak.range, peak.theta, peak.p, peak.cdf);
+	phase_sampler_make(&u->sampler, peak.n_classes, m->n_waves, peak.range, peak.theta, peak.p);
 	v->peak = (float)peak.share;
 	v->chain_scale = peak.share > 0 ? (float)(-1 / log(peak.share)) : 0;
 	SET_TABLE(u, truncation, setup_own(u, peak.truncation), (size_t)m->n_waves);
@@ -78,11 +78,11 @@ static void phases(struct setup *u, const struct medium *m, int suns)
 }
 
 /* Fat rays have the area of a pixel's footprint at the medium's nearest depth (eq 23 with kappa 1), and no less than any particle. */
-static float fat_area(const struct scenefile *f, const struct medium *m, float largest)
+static float fat_area(const struct scenefile *f, const struct medium *m, const double *origin, float largest)
 {
 	double d2 = 0, pixel = 2 * tan(f->fov * M_PI / 360) / fmax(f->width, f->height), eye2 = 0;
 	for (int a = 0; a < 3; a++) {
-		double eye = f->position[a] - f->medium_position[a];
+		double eye = f->position[a] - origin[a];
 		eye2 += eye * eye;
 		d2 += pow(fmax(0, fabs(eye) - m->half[a]), 2);
 	}
@@ -96,7 +96,7 @@ static void particles(struct setup *u, const struct scenefile *f, const struct m
 {
 	struct volume *v = &u->scene.volume;
 	double span = 0;           /* of the grid's coordinates */
-	v->fat_area = fat_area(f, m, v->largest);
+	v->fat_area = fat_area(f, m, u->origin, v->largest);
 	v->query_radius2 = v->transport == TRANSPORT_EXPLICIT ? v->largest : v->fat_area / (float)M_PI;
 	for (int a = 0; a < 3; a++) {
 		double high = m->low[a] + (double)m->cells[a] * m->cell[a];
@@ -135,6 +135,43 @@ static void voxels(struct setup *u, const struct medium *m)
 		SET_TABLE(u, count, (const int *)m->voxel_count, (size_t)m->voxels[0] * (size_t)m->voxels[1] * (size_t)m->voxels[2] * (size_t)m->n_classes);
 }
 
+#define SCATTERINGS_MOST 1e6
+
+/* Largest extinction of a voxel. */
+static double densest(const struct setup *u, int w)
+{
+	const struct bricks *b = &u->bricks;
+	size_t step = u->scene.volume.counted ? (size_t)u->scene.n_waves : 1;
+	double most = 0;
+	for (size_t i = step > 1 ? (size_t)w : 0; i < b->n_voxel; i += step)
+		most = fmax(most, b->voxel[i]);
+	return u->scene.volume.counted ? most : most * u->tables.extinction[w];
+}
+
+/* Refuse what would hardly end. Of a medium that does not absorb, a path from outside meets 4 V/S times the mean extinction on the average
+ * (Blanco and Fournier 2003), which is up to twice the depth along the shortest axis; one in a voxel, about that across it. */
+static void ends(const struct setup *u, const struct scenefile *f, const struct medium *m)
+{
+	const struct volume *v = &u->scene.volume;
+	size_t waves = (size_t)m->n_waves, classes = (size_t)m->n_classes;
+	double shortest = fmin(m->half[0], fmin(m->half[1], m->half[2])), side = INFINITY;
+	for (int a = 0; a < 3; a++)
+		side = fmin(side, v->voxel[a]);
+	for (size_t w = 0; w < waves; w++) {
+		double sum = 0, albedo = v->only_class >= 0 ? u->tables.albedo[(size_t)v->only_class * waves + w] : 0;
+		for (size_t k = 0; k < classes; k++) {
+			sum += m->count[k] * m->c_ext[k * waves + w];
+			albedo = v->only_class < 0 ? fmax(albedo, u->tables.albedo[k * waves + w]) : albedo;
+		}
+		double depth = sum * 1e-12 / medium_volume(m) * 2 * shortest;
+		if (v->transport == TRANSPORT_GRID)
+			depth = fmax(depth, densest(u, (int)w) * side);
+		if (fmin(depth, 1 / (1 - albedo)) > SCATTERINGS_MOST)
+			die(f->medium, "optical depth %.3g at %g um without absorption: a path would be scattered over %g times", depth,
+			    m->wavelength[w], SCATTERINGS_MOST);
+	}
+}
+
 void volume_setup(struct setup *u, const struct scenefile *f, const struct medium *m, int suns)
 {
 	struct volume *v = &u->scene.volume;
@@ -143,10 +180,11 @@ void volume_setup(struct setup *u, const struct scenefile *f, const struct mediu
 	/* particles scatter by their class, everything else as the mixture */
 	v->only_class = v->transport == TRANSPORT_CONTINUOUS || !v->counted ? m->n_classes : m->n_classes == 1 ? 0 : -1;
 	v->round = m->round;
-	to_floats(m->half, v->extent);
+	setup_floats(m->half, v->extent);
 	optics(u, m);
 	colours(u, m);
 	phases(u, m, suns);
 	particles(u, f, m);
 	voxels(u, m);
+	ends(u, f, m);
 }

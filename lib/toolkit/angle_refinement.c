@@ -10,7 +10,10 @@ int angle_refinement_find(const struct phase_model *model, double tolerance, str
 	double x = 0;
 	for (size_t i = 0; i < a->nwaves; i++)
 		x = fmax(x, size_extent(&a->w[i].size));
-	long n = angle_grid_fine(x, tolerance, NULL), *keep = malloc((size_t)n * sizeof *keep);
+	long n = angle_grid_fine(x, tolerance, NULL);
+	if (n < 0 || (double)n * (double)(a->nwaves + 2) > ANGLE_REFINEMENT_MOST)
+		return 1;
+	long *keep = malloc((size_t)n * sizeof *keep);
 	size_t curves = a->nwaves * PHASE_ELEMENTS;
 	double *values = malloc(curves * (size_t)n * sizeof *values), **curve = malloc(curves * sizeof *curve);
 	a->theta = malloc((size_t)n * sizeof *a->theta);

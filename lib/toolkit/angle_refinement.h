@@ -15,7 +15,9 @@ struct angle_refinement {
 };
 
 /* angle_refinement_find - open w[nwaves] by a model for any angles and find their angles; the error of each phase function in
- * L1 is at most tolerance. 0, or -1 when memory ran out. */
+ * L1 is at most tolerance. 0, or -1 when memory ran out, or 1 where
+ * these are more values than ANGLE_REFINEMENT_MOST, before they take time and memory. */
+#define ANGLE_REFINEMENT_MOST 0x1p28
 int angle_refinement_find(const struct phase_model *model, double tolerance, struct angle_refinement *a);
 
 /* angle_refinement_free - close the spheres and forget the angles. */

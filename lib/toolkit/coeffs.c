@@ -86,12 +86,29 @@ static struct size size_of_row(struct coeffs *c)
 	return s;
 }
 
-static double complex finite_pair(const struct coeffs *c, int re, int im)
+/* Squares and their sums are doubles from LEAST to MOST; no sphere's are beyond 1, or e^beta in a host that absorbs. */
+#define LEAST 1e-150
+#define MOST 1e30
+
+static double complex coefficient(const struct coeffs *c, const struct size *s, int re, int im)
 {
 	double complex z = CMPLX(c->row[c->col[re]], c->row[c->col[im]]);
+	double most = fmax(MOST, exp(2 * s->x_im));
 	if (!isfinite(creal(z)) || !isfinite(cimag(z)))
 		bad_row(c, "a coefficient is not finite");
+	if (fabs(creal(z)) > most || fabs(cimag(z)) > most)
+		bad_row(c, "a coefficient is out of range (1e30): no sphere has such");
 	return z;
+}
+
+static void must_scatter(const struct coeffs *c, const struct waves *w)
+{
+	double most = 0;
+	char name[SIZE_NAME];
+	for (int n = 1; n <= w->n; n++)
+		most = fmax(most, fmax(cabs(w->a[n]), cabs(w->b[n])));
+	if (!(most > LEAST))
+		die(tab_path(c->table), "%s: no coefficient is above %g: the sphere does not scatter", size_name(&w->size, name), LEAST);
 }
 
 int coeffs_next(struct coeffs *c, struct waves *w)
@@ -114,12 +131,13 @@ int coeffs_next(struct coeffs *c, struct waves *w)
 			w->a = xgrow(w->a, (size_t)room, sizeof *w->a);
 			w->b = xgrow(w->b, (size_t)room, sizeof *w->b);
 		}
-		w->a[n] = finite_pair(c, A_RE, A_IM);
-		w->b[n] = finite_pair(c, B_RE, B_IM);
+		w->a[n] = coefficient(c, &w->size, A_RE, A_IM);
+		w->b[n] = coefficient(c, &w->size, B_RE, B_IM);
 		w->n = n;
 		c->pending = tab_next(c->table, c->row);
 	} while (c->pending && c->row[c->col[N]] != 1);
 	w->a[0] = w->b[0] = 0;
+	must_scatter(c, w);
 	w->lossless = w->size.x_im == 0 && mie_lossless(w->n, w->a, w->b);
 	return 1;
 }

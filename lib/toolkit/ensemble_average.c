@@ -5,7 +5,6 @@
 #include "optics/phase/angle_grid.h"
 #include "toolkit/phase_means.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,8 +57,8 @@ static void settle(struct curves *c, const struct phase_options *o, long n, cons
 		x = fmax(x, c->means[i]->x);
 	c->value = xalloc(c->n, sizeof *c->value);
 	c->angles = n ? n : angle_grid_fine(x, o->tolerance / 2, NULL);
-	if (c->angles > INT_MAX)
-		die(NULL, "the sizes want too many angles");
+	if (c->angles < 0 || (double)c->angles * PHASE_ELEMENTS * (double)c->n > ANGLE_GRID_MOST)
+		die(NULL, "the sizes want too many angles; choose them by --angles or --theta, or allow more by --tolerance");
 	c->theta = xalloc((size_t)c->angles, sizeof *c->theta);
 	if (n)
 		memcpy(c->theta, theta, (size_t)n * sizeof *theta);

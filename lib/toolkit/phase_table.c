@@ -17,6 +17,8 @@
 #define CHUNK_ANGLES 500000       /* computed together, at most, but for one particle's */
 #define CHUNK_X 20000             /* refined together: sum of size parameters, at most, but for one particle's */
 #define BLOCK 4096                /* angles of a row of waves, handed on together */
+#define TOGETHER 64               /* rows of which the elements are found together */
+#define PEAK 0.69                 /* x times the distance of equal angles, rad: there the forward peak puts p's integral off by 1 % */
 #define OWN (5 + PHASE_ELEMENTS)  /* columns: theta, amplitudes, elements */
 
 struct batch {
@@ -80,14 +82,20 @@ static void put_rows(struct job *j, const struct waves *w, int n, const double *
 	double row[TAB_COLS];
 	int k = spheres_key(j->in, &w->size, row);
 	spheres_carry(j->in, w, row + k + OWN);
-	for (int i = 0; i < n; i++) {
-		row[k] = theta[i];
-		row[k + 1] = creal(s1[i]);
-		row[k + 2] = cimag(s1[i]);
-		row[k + 3] = creal(s2[i]);
-		row[k + 4] = cimag(s2[i]);
-		phase_model_elements(norm, 1, &s1[i], &s2[i], 1, row + k + 5);
-		tab_put(j->out, row);
+	for (int from = 0; from < n; from += TOGETHER) {
+		double value[PHASE_ELEMENTS * TOGETHER];
+		int count = n - from < TOGETHER ? n - from : TOGETHER;
+		phase_model_elements(norm, count, s1 + from, s2 + from, TOGETHER, value);
+		for (int i = 0; i < count; i++) {
+			row[k] = theta[from + i];
+			row[k + 1] = creal(s1[from + i]);
+			row[k + 2] = cimag(s1[from + i]);
+			row[k + 3] = creal(s2[from + i]);
+			row[k + 4] = cimag(s2[from + i]);
+			for (int e = 0; e < PHASE_ELEMENTS; e++)
+				row[k + 5 + e] = value[e * TOGETHER + i];
+			tab_put(j->out, row);
+		}
 	}
 }
 
@@ -179,7 +187,10 @@ static void compute_refined(struct job *j, const struct batch *b)
 		}
 #pragma omp parallel for schedule(dynamic) reduction(|:failed) if (n > 1)
 		for (size_t i = 0; i < n; i++)
-			failed |= angle_refinement_find(j->model, j->o->tolerance, &a[i]) != 0;
+			failed |= (int[]){ 1, 0, 2 }[1 + angle_refinement_find(j->model, j->o->tolerance, &a[i])];
+		if (failed & 2)
+			die("--tolerance", "%g takes too many angles at such size parameters; choose them by --angles or --theta, or allow more",
+			    j->o->tolerance);
 		if (failed)
 			die(NULL, "out of memory");
 		for (size_t i = 0; i < n; i++) {
@@ -239,6 +250,28 @@ static void each(struct job *j, const char *output, const char *command)
 	free(b.x_grid);
 }
 
+/* What equal angles make of the integral of p over the sphere, as linear between them: 1 + this. A large sphere diffracts half of
+ * what it scatters, into p ~ (2 J1(z)/z)^2 with z = x theta; at z = 0, h, 2h .. its trapezoids hold h^2/6 + sum 4 J1(i h)^2 / i in
+ * place of 2. About h^2/48 while h is small. */
+static double peak_excess(double h)
+{
+	double sum = h * h / 6;
+	int i = 1;
+	for (; i <= 1000 || (i <= 1000000 && i * h < 1000); i++)
+		sum += 4 * j1(i * h) * j1(i * h) / i;
+	return (sum + 4 / (M_PI * h * i) - 2) / 4;    /* beyond, J1(z)^2 is 1/(pi z) in the mean */
+}
+
+/* Equal angles that are too few for the forward peak are told once. */
+static void check_peak(const struct phase_options *o, const struct spheres *in)
+{
+	double x = spheres_extent(in, o->average), h = x * M_PI / (double)(o->angles - 1);
+	if (h <= PEAK)
+		return;
+	warn("--angles", "%lld are too few for the forward peak of x = %.4g%s: taken as linear between them, p integrates to about %.3g, not 1; "
+	     "take %.0f or more, or leave --angles out", o->angles, x, o->average ? ", in the mean" : "", 1 + peak_excess(h), ceil(M_PI * x / PEAK) + 1);
+}
+
 void phase_table(const struct phase_options *o, struct spheres *in, const struct phase_model *model, const char *output,
                  const char *command)
 {
@@ -259,5 +292,7 @@ void phase_table(const struct phase_options *o, struct spheres *in, const struct
 		each(&j, output, command);
 	if (j.table)
 		class_table_free(j.table);
+	if (o->angles)
+		check_peak(o, in);
 	free(j.theta);
 }

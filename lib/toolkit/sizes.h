@@ -25,8 +25,8 @@ struct sizes_options {
 #define SIZES_OPTIONS(o) \
 	{ "--particle", OPT_TEXT, &(o).particle, 0, 0, "M", "refractive index (1.33, 1.5+0.1i) or material of the particle", 0 }, \
 	{ "--host", OPT_TEXT, &(o).host, 0, 0, "M", "the same of the medium around it", 0 }, \
-	{ "--wavelength", OPT_UM_STEPS, &(o).wavelength, 1e-4, 1e4, "L[,L..]", \
-	  "vacuum wavelengths, or an inclusive range FROM:TO:STEP", 0 }, \
+	{ "--wavelength", OPT_WAVELENGTHS, &(o).wavelength, 1e-4, 1e4, "L[,L..]", \
+	  "vacuum wavelengths, or frequencies, or an inclusive range FROM:TO:STEP", 0 }, \
 	{ "--radius", OPT_UMS, &(o).radius, 1e-9, 1e9, "R[,R..]", "radii, or FROM:TO:COUNT log-spaced, instead of a table", 0 }, \
 	{ "--size-parameter", OPT_REALS, &(o).x, 0, 0, "X[,X..]", \
 	  "size parameters instead of wavelengths and radii, or FROM:TO:COUNT", 0 }, \

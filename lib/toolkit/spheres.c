@@ -4,6 +4,7 @@
 #include "format/columns.h"
 #include "toolkit/coeffs.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,6 +15,7 @@ struct spheres {
 	struct sizes *sizes;                 /* one of the two */
 	struct coeffs *coeffs;
 	int ncarried, carried_col[TAB_COLS];
+	double x_max, area, area_x2;         /* of spheres_extent */
 };
 
 struct spheres *spheres_open_sizes(const struct sizes_options *o, const char *operand)
@@ -99,14 +101,31 @@ void spheres_carry(const struct spheres *s, const struct waves *w, double *row)
 		row[i] = w->carried[i];
 }
 
+static void add_extent(struct spheres *s, const struct size *size, const double *row)
+{
+	double x = size_extent(size), area = size->radius > 0 ? size->radius * size->radius : x * x;
+	for (int i = 0; row && i < tab_ncols(s->table); i++)
+		if (!strcmp(tab_cols(s->table)[i].name, column_weight.name))
+			area *= row[i];
+	s->x_max = fmax(s->x_max, x);
+	s->area += area;
+	s->area_x2 += area * x * x;
+}
+
+double spheres_extent(const struct spheres *s, int mean)
+{
+	return mean && s->area > 0 ? sqrt(s->area_x2 / s->area) : s->x_max;
+}
+
 int spheres_next(struct spheres *s, struct waves *out)
 {
 	*out = (struct waves){ 0 };
 	if (s->sizes ? !sizes_next(s->sizes, &out->size) : !coeffs_next(s->coeffs, out))
 		return 0;
+	const double *row = !s->table ? NULL : s->sizes ? sizes_row(s->sizes) : coeffs_row(s->coeffs);
+	add_extent(s, &out->size, row);
 	if (!s->ncarried)
 		return 1;
-	const double *row = s->sizes ? sizes_row(s->sizes) : coeffs_row(s->coeffs);
 	out->carried = xalloc((size_t)s->ncarried, sizeof *out->carried);
 	for (int i = 0; i < s->ncarried; i++)
 		out->carried[i] = row[s->carried_col[i]];

@@ -40,6 +40,10 @@ int spheres_next(struct spheres *s, struct waves *out);
 #define SPHERES_BATCH 2048
 int spheres_batch(struct spheres *s, struct waves out[SPHERES_BATCH]);
 
+/* spheres_extent - of the spheres read so far: the largest size parameter (its modulus); where mean, the root of the mean of its
+ * square, weighted by the column weight, if there is one, and r^2: what counts for the forward peak of their mean. */
+double spheres_extent(const struct spheres *s, int mean);
+
 void spheres_close(struct spheres *s);
 
 #endif

@@ -9,7 +9,7 @@
 # Then whole commands for 256 sizes around 3000, 64 around 15000 and 3e4, 1801 angles, in units of mie-phase's direct sum: tools.tsv.
 # usage, by tests/bench/run: goa.sh OUT
 out=$1
-"$MOTES_TESTS/physics/goa_plus" --bench | tee goa.tsv
+"$MOTES_TESTS/bench/goa" | tee goa.tsv
 
 bench=$(cd "$(dirname "$0")" && pwd)
 . "$bench/timing"

@@ -25,6 +25,19 @@ refused 'a choice of two at once' 'none of the choices' exr2png --bits '16|8'
 refused 'a number out of range' 'out of range: from -60 to 60' exr2png --exposure 61
 refused 'not a number' 'is not a number' tabcmp --rel x t.tab t.tab
 refused 'a number not decimal' 'is not a decimal number' tabcmp --rel 0x1 t.tab t.tab
+
+# Units as people write them.
+for radius in '0.55µm' '0.55μm'; do
+	xsect --particle 1.5+0.1j --wavelength 94GHz --radius "$radius" -o unit.tab 2>err &&
+		xsect --particle 1.5+0.1i --wavelength 3189.2814680851063829787um --radius 550nm | tabcmp - unit.tab >out 2>>err
+	is '0 ' "$? $(cat err)" "$radius, 94GHz and 1.5+0.1j"
+done
+xsect --particle 1.33 --wavelength 90GHz:94GHz:2GHz --radius 1mm | tabtxt --columns wavelength >out
+is '# wavelength:f64:um 3331.027311111111 3258.6136739130434 3189.2814680851066' "$(tr '\n' ' ' <out | sed 's/ $//')" 'a range of frequencies'
+refused 'a radius in GHz' 'unknown unit' xsect --particle 1.33 --wavelength 1um --radius 94GHz
+refused 'a frequency in a wrong spelling' 'unknown unit \(nm, um, .*kHz' xsect --particle 1.33 --wavelength 94ghz --radius 1um
+refused 'no frequency' 'is not a frequency' xsect --particle 1.33 --wavelength 0GHz --radius 1um
+
 refused 'too many operands' 'one table at most' tabtxt t.tab t.tab
 refused 'a file that is not there' '^tabtxt: nowhere: cannot open: No such file' tabtxt nowhere
 refused 'a folder' '^tabtxt: \.: cannot read: Is a directory' tabtxt .

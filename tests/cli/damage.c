@@ -1,6 +1,7 @@
 /* Damaged input: every tool that reads a table or an image gets it cut short, with single bits turned over, and followed by
  * another, and has to say so in one line and exit with 2. A table is guarded by a checksum, so that no damage may go unseen; an
- * image is not in all its parts, so that a turned bit may pass there, but never silently end a tool or upset the sanitizers.
+ * image is not in all its parts, so that a turned bit may pass there, but never silently end a tool or upset the sanitizers. So may
+ * damage behind a checksum that was made right again: single bits, and pieces of a file that all have the same value.
  *
  * DAMAGE=all in the environment tries every bit for every reader (minutes). To add a tool, add a row to readers[]. */
 #include "base/die.h"
@@ -18,17 +19,18 @@
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #define WORKERS 2
 #define SECONDS 20
 
 /* What is damaged: a file of this name in the test's folder, where make_inputs puts it. */
-#define GUARDED 1            /* by a checksum: no damage may go unseen */
 static const struct input {
 	const char *name;
-	int flags;
-} sizes = { "sizes", GUARDED }, coeffs = { "coeffs", GUARDED }, xsect = { "xsect", GUARDED }, phase = { "phase", GUARDED },
-  grains = { "grains", GUARDED }, medium = { "medium", GUARDED }, scene = { "scene", 0 },
+	size_t checksum;         /* of all before it, so many bytes from the end: no damage may go unseen; 0: there is none */
+} sizes = { "sizes", 4 }, coeffs = { "coeffs", 4 }, xsect = { "xsect", 4 }, phase = { "phase", 4 },
+  grains = { "grains", 4 }, medium = { "medium", 8 }, field = { "field", 8 }, scene = { "scene", 0 },
+  csv = { "csv", 0 }, npy = { "npy", 0 },
   zip = { "zip.exr", 0 }, part = { "part.exr", 0 }, piz = { "piz.exr", 0 }, tiled = { "tiled.exr", 0 };
 
 #define LIGHT "--particle", "1.33", "--wavelength", "550nm"
@@ -42,11 +44,14 @@ static const struct reader {
 	const char *args[14];
 } readers[] = {
 	{ "tabtxt", &sizes, 1, { NULL } },
+	{ "txttab", &csv, 1, { "--units", "radius=um", "-o", "@out", NULL } },
+	{ "txttab", &npy, 3, { "-o", "@out", NULL } },
+	{ "tabcat", &sizes, 31, { "-o", "@out", "@sizes", "-", NULL } },
 	{ "tabcmp", &sizes, 13, { "-", "@sizes", NULL } },
 	{ "mie-coeffs", &sizes, 31, { LIGHT, NULL } },
-	{ "mie-phase", &sizes, 31, { LIGHT, "--angles", "3", NULL } },
-	{ "mie-phase", &coeffs, 31, { "--angles", "3", NULL } },
-	{ "goa-phase", &sizes, 31, { LIGHT, "--angles", "3", NULL } },
+	{ "mie-phase", &sizes, 31, { LIGHT, "--theta", "0:180:90", NULL } },
+	{ "mie-phase", &coeffs, 31, { "--theta", "0:180:90", NULL } },
+	{ "goa-phase", &sizes, 31, { LIGHT, "--theta", "0:180:90", NULL } },
 	{ "xsect", &sizes, 31, { LIGHT, NULL } },
 	{ "xsect", &coeffs, 31, { NULL } },
 	{ "particles", &sizes, 31, { "--psd", "-", "--count", "3", "--box", "1m,1m,1m", NULL } },
@@ -54,6 +59,8 @@ static const struct reader {
 	{ "medium-bake", &xsect, 31, { "--xsect", "-", "--phase", "@phase", BAKE, "@grains", NULL } },
 	{ "medium-bake", &phase, 31, { "--xsect", "@xsect", "--phase", "-", BAKE, "@grains", NULL } },
 	{ "vrender", &medium, 499, { "--samples", "1", "-o", "@out", "@from-stdin", NULL } },
+	{ "vrender", &medium, 997, { "--samples", "1", "--transport", "grid", "-o", "@out", "@from-stdin", NULL } },
+	{ "vrender", &field, 997, { "--samples", "1", "--transport", "grid", "-o", "@out", "@from-stdin", NULL } },
 	{ "vrender", &scene, 19, { "--samples", "1", "-o", "@out", "/dev/stdin", NULL } },
 	{ "exr2png", &zip, 31, { NULL } },
 	{ "exr2png", &piz, 31, { NULL } },
@@ -132,6 +139,14 @@ static void make_inputs(void)
 	      ROWS{ 0.55, 0, M_1_PI / 4, 0.55, 90, M_1_PI / 4, 0.55, 180, M_1_PI / 4 });
 	table("grains", 4, WORDS{ "x", "m", "y", "m", "z", "m", "radius", "um" }, 2, ROWS{ 0, 0, 0, 1, 0.1, 0.2, 0.3, 3 });
 
+	char *path = in_folder("csv");
+	FILE *f = fopen(path, "w");
+	if (!f)
+		die(path, "cannot create:");
+	fprintf(f, "\xef\xbb\xbf\"id\",x , radius\r\n1,2, \"3.5\"\r\n2,-1e-3,nan\r\n");
+	fclose(f);
+	free(path);
+
 	struct exr image = { .width = 17, .height = 19, .history = xtext("vrender\n") };
 	static const char *const names[] = { "R", "G", "B", "count" };
 	for (int i = 0; i < 4; i++) {
@@ -140,7 +155,7 @@ static void make_inputs(void)
 		for (int p = 0; p < 17 * 19; p++)
 			data[p] = (float)(p * (i + 1) % 61) / 64;
 	}
-	char *path = in_folder("zip.exr");
+	path = in_folder("zip.exr");
 	exr_write((struct out[]){ out_open(path, 1) }, &image);
 	exr_free(&image);
 	free(path);
@@ -151,7 +166,10 @@ static void make_inputs(void)
 	free(path);
 	char *command = xtext("cd %s && oiiotool zip.exr --ch R,G,B -d half --compression piz -o piz.exr && "
 	    "oiiotool zip.exr --ch R,G,B -d float --compression pxr24 --tile 16 16 -o tiled.exr && "
+	    "\"$BIN/tabtxt\" --npy grains -o npy && "
 	    "{ ! [ -x \"$BIN/medium-bake\" ] || \"$BIN/medium-bake\" --xsect xsect --phase phase --box 1m,1m,1m -o medium grains; } && "
+	    "{ ! [ -x \"$BIN/medium-bake\" ] || \"$BIN/medium-bake\" --xsect xsect --phase phase --psd sizes --concentration 1e9/m3 "
+	    "--box 1m,1m,1m --voxels 3 -o field; } && "
 	    "{ ! [ -x \"$BIN/vrender\" ] || \"$BIN/vrender\" --sample-range 0:2 --spectral -o part.exr scene; }", folder);
 	if (system(command))
 		die(folder, "cannot make the files to be damaged");
@@ -227,6 +245,41 @@ static int trial(const struct reader *r, const struct bytes *b, const struct byt
 	return 1;
 }
 
+/* Make the checksum right again. */
+static void repair(const struct reader *r, struct bytes *b)
+{
+	size_t at = b->n - r->input->checksum;
+	uint32_t crc = (uint32_t)crc32(crc32(0, NULL, 0), b->p, (unsigned)at);
+	for (size_t i = 0; i < 4; i++)
+		b->p[at + i] = (unsigned char)(crc >> 8 * i);
+}
+
+#define PIECE 64             /* bytes */
+
+/* What a checksum does not see: single bits, and pieces of one value. b holds the whole input, and does so again. */
+static int forgery(const struct reader *r, struct bytes *b, const struct bytes *whole, size_t stride, size_t worker)
+{
+	static const unsigned char values[] = { 0, 1, 0x7f, 0xf0, 0xff };
+	size_t number = 0, guarded = whole->n - r->input->checksum;
+	int wrong = 0;
+	for (size_t bit = 0; bit < 8 * guarded && wrong < 4; bit += stride)
+		if (number++ % WORKERS == worker) {
+			b->p[bit / 8] ^= (unsigned char)(1 << bit % 8);
+			repair(r, b);
+			wrong += trial(r, b, NULL, 1, "forged: bit", bit);
+			memcpy(b->p, whole->p, whole->n);
+		}
+	for (size_t at = 0; at < guarded && wrong < 4; at += PIECE)
+		for (size_t v = 0; v < sizeof values && wrong < 4; v++)
+			if (number++ % WORKERS == worker) {
+				memset(b->p + at, values[v], guarded - at < PIECE ? guarded - at : PIECE);
+				repair(r, b);
+				wrong += trial(r, b, NULL, 1, "forged: piece at", at);
+				memcpy(b->p, whole->p, whole->n);
+			}
+	return wrong;
+}
+
 /* The worker's share of all trials; stops at the fourth that goes wrong. */
 static int share(const struct reader *r, const struct bytes *whole, size_t worker)
 {
@@ -236,15 +289,17 @@ static int share(const struct reader *r, const struct bytes *whole, size_t worke
 	memcpy(b.p, whole->p, whole->n);
 	for (b.n = 0; b.n < whole->n && wrong < 4; b.n += stride)
 		if (number++ % WORKERS == worker)
-			wrong += trial(r, &b, NULL, r->input == &scene, "cut at", b.n);
+			wrong += trial(r, &b, NULL, r->input == &scene || r->input == &csv, "cut at", b.n);
 	b.n = whole->n;
 	for (size_t bit = 0; bit < 8 * whole->n && wrong < 4; bit += stride)
 		if (number++ % WORKERS == worker) {
 			b.p[bit / 8] ^= (unsigned char)(1 << bit % 8);
-			wrong += trial(r, &b, NULL, !(r->input->flags & GUARDED), "turned over: bit", bit);
+			wrong += trial(r, &b, NULL, !r->input->checksum, "turned over: bit", bit);
 			b.p[bit / 8] ^= (unsigned char)(1 << bit % 8);
 		}
-	if (r->input->flags & GUARDED && worker == 0)
+	if (r->input->checksum)
+		wrong += forgery(r, &b, whole, stride, worker);
+	if (r->input->checksum && worker == 0)
 		wrong += trial(r, &b, whole, 0, "followed by another", 0) + trial(r, &b, &(struct bytes){ whole->p, 1 }, 0, "and a byte", 1);
 	free(b.p);
 	return wrong;
@@ -277,7 +332,7 @@ int main(void)
 		die("MOTES_BUILD", "is not set; run by tests/run");
 	char *build = realpath(getenv("MOTES_BUILD"), NULL), *bin = xtext("%s/bin", build);
 	setenv("BIN", bin, 1);
-	setenv("ASAN_OPTIONS", "exitcode=99:detect_leaks=0", 0);     /* for the tools: as in tests/support/lib.sh */
+	setenv("ASAN_OPTIONS", "exitcode=99", 0);     /* for the tools: as in tests/support/lib.sh */
 	setenv("OMP_NUM_THREADS", "1", 0);
 	make_inputs();
 	for (size_t i = 0; i < READERS; i++) {

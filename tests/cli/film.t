@@ -75,6 +75,54 @@ sed -i 's/target = .0.0, 0.0, 0.0./target = [9.0, 9.0, 9.0]/' aside.scene
 vrender aside.scene --samples 4 -o aside.exr
 is '0 0' "$(most aside.exr A) $(most aside.exr depth.Z)" 'beside the medium alpha and depth are 0'
 
+# ---- alpha of a coloured medium: by channels, and by wavelengths, what a black one takes away from white light, in every pixel
+
+hg 0 0.45 0.55 0.65 >iso3.phase
+cube tint.medium 5e5 0 iso3.phase 0.45 0.55 0.65
+many='0.40 0.42 0.44 0.46 0.48 0.50 0.52 0.54 0.56 0.58 0.60 0.62'
+# shellcheck disable=SC2086
+{
+	hg 0 $many >iso12.phase
+	cube many-tint.medium 5e5 0 iso12.phase $many
+	dispersed 4e8 0 0.45 0.55 0.65 >tint.xsect
+}
+grains tint-grains.medium 2e4 tint.xsect iso3.phase
+for t in 'continuous tint' 'continuous many-tint' 'grid tint-grains' 'explicit tint-grains' 'fat-ray tint-grains'; do
+	far tint.scene "${t#* }.medium" ''
+	vrender tint.scene --samples 64 --spectral --transport "${t% *}" -o tint.exr
+	worst=$("$MOTES_BUILD/tests/support/spectral_alpha" tint.exr | awk '$1 == "worst" { print $2 }')
+	# of twelve wavelengths two groups take turns: white is whole to the rounding of their weights
+	near "$worst" 0 4e-6
+	ok $? "$t: alpha of each channel and wavelength is what is taken away there: within $worst"
+done
+# 64^2 x 64 paths: standard error below 1e-3
+far tint.scene tint.medium ''
+vrender tint.scene --samples 64 --spectral -o tint.exr
+"$MOTES_BUILD/tests/support/spectral_alpha" tint.exr >tint.txt
+for c in 'AR 0.6' 'AG 0.55' 'AB 0.5' 'A.650,000000nm 0.6' 'A.550,000000nm 0.55' 'A.450,000000nm 0.5'; do
+	want=$(awk -v s="${c#* }" 'BEGIN { print 1 - exp(-2 * s) }')
+	got=$(awk -v c="${c% *}" '$1 == c { print $2 }' tint.txt)
+	near "$got" "$want" 0.004
+	ok $? "alpha by Beer and Lambert, ${c% *}: $got, wanted $want"
+done
+# another background: a scene's own is that laid behind it
+dispersed 5e5 0.8 0.45 0.55 0.65 >cube.xsect
+medium-bake --xsect cube.xsect --phase iso3.phase --psd one.psd --concentration 1e6/m3 --box 2m,2m,2m -o dyed.medium
+sun='{ type = "sun"; direction = [-0.6, -1.0, -0.3]; irradiance = 2.0; }'
+back='{ type = "quad"; corner = [-9.0, -9.0, -3.0]; edge1 = [18.0, 0.0, 0.0]; edge2 = [0.0, 18.0, 0.0]; radiance = [0.2, 0.5, 1.0]; }'
+far none.scene dyed.medium "lights = ( $sun );"
+far laid.scene dyed.medium "lights = ( $sun, $back );"
+vrender none.scene --samples 256 -o none.exr
+vrender laid.scene --samples 256 -o laid.exr
+for c in 'R 0.2' 'G 0.5' 'B 1.0'; do
+	# what the medium did not scatter, all - single - multiple, is (1 - A) background
+	got=$(for l in "${c% *}" "single.${c% *}" "multiple.${c% *}"; do average laid.exr "$l"; done | paste -s - | awk '{ print $1 - $2 - $3 }')
+	want=$(awk -v a="$(average none.exr "A${c% *}")" -v b="${c#* }" 'BEGIN { print (1 - a) * b }')
+	near "$got" "$want" 0.002
+	ok $? "a background laid behind, ${c% *}: $got, wanted $want"
+done
+is '' "$(oiiotool --info -v sun.exr | grep -o ' A[RGB],')" 'of one wavelength alpha has no colour'
+
 # ---- the variance is the spread of single samples over seeds, by the number of samples; the mean's own is no larger; none where all
 # samples are equal
 
@@ -117,11 +165,11 @@ for t in explicit fat-ray grid continuous; do
 		vrender three.scene --transport $t $o --sample-range 0:3 -o a.exr
 		vrender three.scene --transport $t $o --sample-range 3:4 --backend opencl -o b.exr
 		vrender three.scene --transport $t $o --sample-range 4:9 --threads 1 -o c.exr
-		exr-merge -o m.exr c.exr a.exr b.exr
+		exr-merge --whole -o m.exr c.exr a.exr b.exr
 		cmp whole.exr m.exr
 		ok $? "$t $o: three parts, one of them by OpenCL, make the image's bytes"
 		exr-merge -o ac.exr a.exr c.exr
-		exr-merge -o m.exr b.exr ac.exr
+		exr-merge --whole -o m.exr b.exr ac.exr
 		cmp whole.exr m.exr
 		ok $? "$t $o: in another grouping too"
 		vrender three.scene --transport $t $o --samples 9 --sample-range 0:4 -o a.exr
@@ -143,6 +191,16 @@ exr-merge -o ab.exr a.exr b.exr
 exr-merge -o m.exr c.exr ab.exr
 cmp whole.exr m.exr
 ok $? 'a whole known beforehand: its first parts stay a part'
+for r in 0:3 3:5 5:9 0:9; do vrender three.scene --sample-range $r -o open$r.exr; done
+exr-merge -o open.exr open0:3.exr open3:5.exr
+exr-merge -o m.exr open.exr open5:9.exr
+cmp open0:9.exr m.exr
+ok $? 'samples from 0 on stay a part, to which more are added'
+exr-merge --whole -o m.exr m.exr
+cmp whole.exr m.exr
+ok $? 'until they are said to be the whole'
+refused 'a whole with a gap' 'whole: samples are missing' exr-merge --whole -o x.exr open0:3.exr open5:9.exr
+refused 'a whole that is to have more' 'whole: samples are missing' exr-merge --whole -o x.exr ab.exr
 exr-merge -o same.exr ab.exr
 cmp ab.exr same.exr
 ok $? 'a part alone stays what it is'
@@ -168,13 +226,27 @@ for r in 0:3 3:6; do vrender hot.scene --sample-range $r -o hot$r.exr; done
 refused 'more light than a film holds, in the sum' 'too strong' exr-merge -o x.exr hot0:3.exr hot3:6.exr
 is '' "$(ls x.exr* 2>/dev/null)" 'no image appears under its name'
 
+# ---- a film read and written in mid-run goes on as if it had not been
+
+for backend in c opencl; do
+	rm -f half?.exr whole.exr
+	"$MOTES_BUILD/tests/support/film_mid_run" $backend three.scene
+	ok $? "$backend: read in mid-run, a film is as it was, and goes on to what one run gives"
+	vrender three.scene --transport explicit --sample-range 0:4 -o part.exr
+	cmp half1.exr half2.exr && imgcmp --max 0 half1.exr part.exr >/dev/null
+	ok $? "$backend: finished twice, it is the same image, that of its samples"
+	vrender three.scene --transport explicit --sample-range 0:8 -o part.exr
+	imgcmp --max 0 whole.exr part.exr >/dev/null
+	ok $? "$backend: and so it is when all are in"
+done
+
 # ---- spectral layers
 
 vrender three.scene --samples 4 --spectral -o spectral.exr
-ok "$("$MOTES_BUILD/tests/unit/film" spectral.exr >got; echo $?)" "the wavelengths' colours are the image's: $(cat got)"
+ok "$("$MOTES_BUILD/tests/support/spectral_colours" spectral.exr >got; echo $?)" "the wavelengths' colours are the image's: $(cat got)"
 scene coloured.scene three.medium 24 'lights = ( { type = "sun"; direction = [-0.6, -1.0, -0.3]; irradiance = [3.0, 1.0, 0.2]; } );'
 vrender coloured.scene --samples 4 --spectral -o spectral.exr
-ok "$("$MOTES_BUILD/tests/unit/film" spectral.exr >got; echo $?)" "of a coloured light, by three wavelengths: $(cat got)"
+ok "$("$MOTES_BUILD/tests/support/spectral_colours" spectral.exr >got; echo $?)" "of a coloured light, by three wavelengths: $(cat got)"
 many='0.40 0.42 0.44 0.46 0.48 0.50 0.52 0.54 0.56 0.58 0.60'
 # shellcheck disable=SC2086
 {
@@ -183,7 +255,7 @@ many='0.40 0.42 0.44 0.46 0.48 0.50 0.52 0.54 0.56 0.58 0.60'
 }
 scene many.scene many.medium 24 "$lights"
 vrender many.scene --samples 32 --spectral -o many.exr
-ok "$("$MOTES_BUILD/tests/unit/film" many.exr >got; echo $?)" "with paths that carry a part of them each too: $(cat got)"
+ok "$("$MOTES_BUILD/tests/support/spectral_colours" many.exr >got; echo $?)" "with paths that carry a part of them each too: $(cat got)"
 is 'spectralLayoutVersion: "1.0" emissiveUnits: "W.m^-2.sr^-1"' \
 	"$(oiiotool --info -v many.exr | sed -n 's/^ *\(spectralLayoutVersion.*\)/\1/p') $(oiiotool --info -v many.exr | sed -n 's/^ *\(emissiveUnits.*\)/\1/p')" \
 	'the layout is named'

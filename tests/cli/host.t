@@ -31,7 +31,7 @@ for m in 1.5 1.33+1e-8i 1.5+0.1i; do
 			cmp -s direct streamed && [ "$(wc -l <direct)" -gt 37 ]
 			ok $? "mie-coeffs | mie-phase $angles, $m"
 		done
-		is '0 1' "$(wc -l <err) $(wc -l <direct.err)" 'one warning by xsect, none by the others'
+		is '0 1' "$(grep -vc 'few for the forward peak' err) $(wc -l <direct.err)" 'one warning by xsect, none by the others'
 	}
 done
 xsect --particle 1.5 --host 1.33+0.01i --size-parameter 3,10,30 | tabtxt >direct

@@ -202,6 +202,23 @@ oiiotool --pattern constant:color=1,1,1 16x8 3 -d float -o even.exr
 lit 'ground under an even map that a black quad covers' "$(awk -v f="$(over 2 1 1)" 'BEGIN { printf "%.8g", 0.8 - f }')" \
 	'{ type = "environment"; file = "even.exr"; }, { type = "quad"; corner = [-1.0, 1.0, -0.5]; edge1 = [2.0, 0.0, 0.0]; edge2 = [0.0, 0.0, 1.0]; radiance = 0.0; }'
 
+# ---- fifteen dim quads far away leave the noise as it is, and the light what it should be
+
+near='{ type = "quad"; corner = [-1.0, 3.0, -1.0]; edge1 = [2.0, 0.0, 0.0]; edge2 = [0.0, 0.0, 2.0]; radiance = 9.0; }'
+dim=$(awk 'BEGIN { for (i = 0; i < 15; i++)
+	printf ", { type = \"quad\"; corner = [%.1f, 300.0, -100.0]; edge1 = [9.0, 0.0, 0.0]; edge2 = [0.0, 0.0, 9.0]; radiance = 0.1; }", 20 * i - 150 }')
+for t in explicit continuous; do
+	[ $t != continuous ] && medium=hg-grains.medium || medium=hg.medium
+	for many in '' "$dim"; do
+		scene dim.scene "$medium" 64 "lights = ( $near$many );"
+		pair dim.scene 64 $t
+		imgcmp pair1.exr pair2.exr | awk '$1 == "G" { print $2 }'
+		mean pair1.exr
+	done >noise.txt
+	awk '{ x[NR] = $1 } END { r = x[3] / x[1]; m = x[4] / x[2] - 1; print r; exit !(NR == 4 && r < 1.1 && m < 0.02 && m > -0.02) }' noise.txt >ratio.txt
+	ok $? "fifteen dim quads far away raise the noise by $(cat ratio.txt), $t"
+done
+
 # ---- the same bytes, and no wrong access, with all lights
 
 all="lights = ( { type = \"environment\"; radiance = [0.1, 0.2, 0.3]; }, { type = \"environment\"; file = \"spot.exr\"; radiance = 0.1; },

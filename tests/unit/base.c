@@ -26,6 +26,14 @@ static void lengths(const char *text, int by_step, size_t n, size_t i, double wa
 	free(r.v);
 }
 
+static void wavelengths(const char *text, size_t n, size_t i, double want)
+{
+	struct reals r = { NULL, 0 };
+	const char *bad = unit_wavelengths(text, -6, &r);
+	ok(!bad && r.n == n && r.v[i] == want, "%s has %zu values, and value %zu is %.17g", text, n, i, want);
+	free(r.v);
+}
+
 int main(void)
 {
 	double v;
@@ -42,6 +50,10 @@ int main(void)
 	length("3km", 0, 3000);
 	length("7um", 0, 7 / 1e6);
 	length("1nm", 0, 1 / 1e9);
+	length("0.55\xc2\xb5m", -6, 0.55);
+	length("0.55\xce\xbcm", -6, 0.55);
+	refused(unit_length("0.55\xc2\xb6m", -6, &v), "0.55\xc2\xb6m", "unknown unit");
+	refused(unit_length("94GHz", -6, &v), "94GHz", "unknown unit");
 	refused(unit_length("10", -6, &v), "10", "without a unit");
 	refused(unit_length("10 um", -6, &v), "10 um", "unknown unit");
 	refused(unit_length("10UM", -6, &v), "10UM", "unknown unit");
@@ -50,6 +62,20 @@ int main(void)
 	refused(unit_length("0x10um", -6, &v), "0x10um", "not a length");
 	refused(unit_length("nanum", -6, &v), "nanum", "not a length");
 	refused(unit_length("1e308km", -6, &v), "1e308km", "too large");
+
+	wavelengths("94GHz", 1, 0, 299792458.0 / 94e3);
+	wavelengths("94GHz,550nm,1THz,1MHz,300kHz", 5, 2, 299792458.0 / 1e6);
+	wavelengths("94GHz,550nm,1THz,1MHz,300kHz", 5, 1, 550.0 / 1000);
+	wavelengths("94GHz,550nm,1THz,1MHz,300kHz", 5, 4, 299792458.0 / 0.3);
+	wavelengths("90GHz:100GHz:1GHz", 11, 4, 299792458.0 / 94e3);
+	wavelengths("380nm:780nm:10nm", 41, 17, 550.0 / 1000);
+	refused(unit_wavelengths("0GHz", -6, &r), "0GHz", "not a frequency");
+	refused(unit_wavelengths("-1GHz", -6, &r), "-1GHz", "not a frequency");
+	refused(unit_wavelengths("94ghz", -6, &r), "94ghz", "kHz, MHz, GHz");
+	refused(unit_wavelengths("94GHz:1um:1nm", -6, &r), "94GHz:1um:1nm", "mixes");
+	refused(unit_wavelengths("1GHz:2GHz:1nm", -6, &r), "1GHz:2GHz:1nm", "mixes");
+	refused(unit_wavelengths("1e-320kHz", -6, &r), "1e-320kHz", "too large");
+	free(r.v);
 
 	lengths("380nm:780nm:10nm", 1, 41, 17, 550.0 / 1000);
 	lengths("380nm:780nm:10nm", 1, 41, 40, 780.0 / 1000);

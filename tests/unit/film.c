@@ -1,53 +1,11 @@
-/* The film's integers are exact. With an argument, a spectral image: how far its red, green and blue are from the colours of its
- * wavelengths (used by film.t). */
-#include "base/die.h"
-#include "format/exr.h"
-#include "render/colour.h"
+/* The film's integers are exact. */
 #include "render/kern/film.h"
 #include "support/tap.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-static int colours(const char *path)
-{
-	static struct exr e;
-	static const char *const rgb[] = { "R", "G", "B" };
-	double wavelength[64], worst = 0;
-	const struct exr_channel *wave[64];
-	float weight[64][3];
-	int n = 0;
-	exr_read(path, &e);
-	for (int i = 0; i < e.n && n < 64; i++) {
-		int whole, part;
-		if (sscanf(e.channel[i].name, "S0.%d,%6dnm", &whole, &part) == 2) {
-			wavelength[n] = (whole + part * 1e-6) / 1000;
-			wave[n++] = &e.channel[i];
-		}
-	}
-	if (colour_weights(n, wavelength, weight))
-		die(path, "no colour");
-	for (size_t p = 0; p < (size_t)e.width * (size_t)e.height; p++)
-		for (int c = 0; c < 3; c++) {
-			double sum = 0, size = 1e-3, got = exr_find(&e, rgb[c])->data[p];
-			for (int w = 0; w < n; w++) {
-				sum += (double)weight[w][c] * wave[w]->data[p];
-				size += fabs((double)weight[w][c] * wave[w]->data[p]);
-			}
-			worst = fmax(worst, fabs(sum - got) / size);
-		}
-	printf("%d wavelengths: %.2g\n", n, worst);
-	return !(n && worst < 1e-6);
-}
-
 #define MOST (((int64)1 << 61) - 1)    /* of a sample, less than a quarter of a sum's limit either way */
 
-int main(int argc, char **argv)
+int main(void)
 {
-	if (argc > 1)
-		return colours(argv[1]);
 	static const int64 values[] = { 0, 1, -1, 65535, 1LL << 31, (1LL << 32) - 1, -(1LL << 32), 0x123456789abcdef, MOST, -MOST };
 	unsigned __int128 want = 0;
 	int64 sum[2] = { 0, 0 }, sums[8] = { 0 };

@@ -89,6 +89,7 @@ int main(void)
 {
 	parsed("1.33", 1.33, 0);
 	parsed("1.5+0.1i", 1.5, 0.1);
+	parsed("1.5+0.1j", 1.5, 0.1);
 	parsed("1.5+1e-10i", 1.5, 1e-10);
 	parsed("1.5e0+0i", 1.5, 0);
 	parsed("+.75", .75, 0);
@@ -101,7 +102,10 @@ int main(void)
 	refused("1e400", "too large");
 	refused("1.5+1e400i", "too large");
 	refused("1.5+0.1", "not a refractive index");
-	refused("1.5+0.1j", "not a refractive index");
+	refused("1.5+0.1k", "not a refractive index");
+	refused("1.5+0.1ij", "not a refractive index");
+	refused("1.5-0.1j", "positive one absorbs");
+	refused("0.1j", "no real part");
 	refused("1.5+i", "not a refractive index");
 	refused("1.5 +0.1i", "not a refractive index");
 	refused("1.5+0.1i ", "not a refractive index");

@@ -30,7 +30,7 @@ static void map_make(int width, int height, struct envmap *m, struct lights *l, 
 	l->map_height = height;
 	l->map_angle = (float)(4 * M_PI / width * sin(M_PI / 2 / height));
 	l->n = 1;
-	l->pick = 1;
+	l->map_pick = 1;
 	l->light[0].kind = LIGHT_MAP;
 	memset(t, 0, sizeof *t);
 	ok(envmap_cdf(m, &cdf) == (size_t)height + 1 + (size_t)height * ((size_t)width + 1), "%d x %d: integrals made", width, height);
@@ -92,7 +92,7 @@ int main(void)
 	map_test(1024, 512);
 
 	/* A texel alone, and one row. */
-	struct lights l = { .map_width = 1, .map_height = 1, .map_angle = (float)(4 * M_PI), .pick = 1 };
+	struct lights l = { .map_width = 1, .map_height = 1, .map_angle = (float)(4 * M_PI)};
 	struct scene s;
 	struct envmap one = { .width = 1, .height = 1, .rgb = (float[]){ 1, 2, 3 } };
 	struct tables t = { .map = one.rgb };
@@ -123,9 +123,8 @@ int main(void)
 			q->dual[0][e] = q->dual[1][f] = 0.5f;
 			q->normal[a] = side ? -1 : 1;
 			q->light = s.surfaces.n;
-			s.lights.light[s.lights.n++] = (struct light){ .kind = LIGHT_QUAD, .pdf = 0.25f, .surface = s.surfaces.n++ };
+			s.lights.light[s.lights.n++] = (struct light){ .kind = LIGHT_QUAD, .pick = 1 / 6.f, .pdf = 0.25f / 6, .surface = s.surfaces.n++ };
 		}
-	s.lights.pick = 1 / 6.f;
 	int leaks = 0, behind = 0, blocked = 0, bad = 0;
 	for (int i = 0; i < 1000000; i++) {
 		float x[6];

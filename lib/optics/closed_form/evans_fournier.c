@@ -12,6 +12,15 @@ static double complex anomalous(double complex w)
 	return 0.5 + over * (e + (e - 1) * over);
 }
 
+#define POLE 1e-3              /* least modulus of what is divided by: the model's poles are no sphere's */
+
+/* z, or a number of its phase that is no nearer to 0 than POLE. */
+static double complex from_pole(double complex z)
+{
+	double r2 = norm2(z);
+	return r2 >= POLE * POLE ? z : r2 > 0 ? z * (POLE / sqrt(r2)) : POLE;
+}
+
 /* The fit's departure, ~ x^(-2/3) as the edge; g; absorption. */
 double evans_fournier_error(double x, double complex m)
 {
@@ -30,10 +39,11 @@ struct efficiencies evans_fournier_efficiencies(double x, double complex m)
 {
 	double n = creal(m), k = cimag(m), d = fabs(n - 1), n2 = n * n, k2 = k * k;
 	double size2 = (n2 + k2) * (n2 + k2), diff = n2 - k2, root = sqrt(k);
-	double x2 = x * x, w = size2 + 4 * diff + 4, contrast = norm2(m - 1) * norm2(m + 1);     /* |m^2 + 2|^2, |m^2 - 1|^2 */
+	double x2 = x * x, contrast = norm2(m - 1) * norm2(m + 1);     /* |m^2 - 1|^2; |m^2 + 2|^2, |2 m^2 + 3|^2: */
+	double w = fmax(size2 + 4 * diff + 4, POLE * POLE), second = fmax(4 * size2 + 12 * diff + 9, POLE * POLE);
 	double dipole = 8.0 / 3 * x2 * x2 * contrast / w;
 	double absorbed = 24 * n * k / w * x;
-	double more = 4.0 / 15 + 20 / (3 * (4 * size2 + 12 * diff + 9)) + 4.8 * (7 * size2 + 4 * (diff - 5)) / (w * w);
+	double more = 4.0 / 15 + 20 / (3 * second) + 4.8 * (7 * size2 + 4 * (diff - 5)) / (w * w);
 	double small = absorbed + n * k * more * x * x2 +
 		       dipole * ((size2 + diff - 2) * (size2 + diff - 2) - 36 * n2 * k2) / (contrast * w);
 	if (!(small > dipole))
@@ -53,7 +63,7 @@ struct efficiencies evans_fournier_efficiencies(double x, double complex m)
 	q.abs = q.ext - q.sca;
 	double rise = 0.16 * x2, most = 1 / (1 + (n > 1 ? 0.4 * (n - 1) : 0.5 * (1 / n - 1)) * fmax(1 - 1.3 * lost, 0));
 	q.g = most * rise * (1 + 2 * rise) / (1 + rise * (1 + 2 * rise));
-	double complex far = (1 - face * face) / (1 - 2 / m + 1e-3) * cexp(4 * I * x * m);
+	double complex far = (1 - face * face) / from_pole(1 - 2 / m + 1e-3) * cexp(4 * I * x * m);
 	q.back = norm2(face) * norm2(1 - far);
 	return q;
 }

@@ -35,15 +35,18 @@ struct efficiencies rayleigh_efficiencies(double x, double complex m)
 	/* a1, b1, a2 over x^3 i */
 	double complex shape = 2.0 / 3 * times(contrast, 1 - x2 / 10 + (4 * q + 5) * (x4 / 1400));
 	double complex damped = 2.0 / 3 * x3 * (1 - x2 / 10) * contrast;
-	double complex d = q + 2 + (1 - 0.7 * q) * x2 - (times(8 * q - 385, q) + 350) * (x4 / 1400) + CMPLX(-cimag(damped), creal(damped));
-	double complex a1 = over(shape, d);
+	double complex inside = q + 2 + (1 - 0.7 * q) * x2 - (times(8 * q - 385, q) + 350) * (x4 / 1400);
+	double complex d = inside + CMPLX(-cimag(damped), creal(damped)), a1 = over(shape, d);
 	double complex b1 = x2 / 45 * times(contrast, over(1 + (2 * q - 5) * (x2 / 70), 1 - (2 * q - 5) * (x2 / 30)));
 	double complex a2 = x2 / 15 * (1 - x2 / 14) * over(contrast, 2 * q + 3 - (2 * q - 7) * (x2 / 14));
 	double total = norm2(a1) + norm2(b1) + 5.0 / 3 * norm2(a2);
 	struct efficiencies e;
 	e.sca = 6 * x4 * total;
-	e.ext = cimag(m) == 0 ? e.sca : fmax(-6 * fmin(x, LARGEST) * cimag(a1 + b1 + 5.0 / 3 * a2), e.sca);
-	e.abs = e.ext - e.sca;
+	/* Not extinction less scattering, which cancel where little is absorbed: -Im a1 = |a1|^2 Im(1/a1), whose share of `damped' is what a1
+	 * scatters. */
+	double absorbed = cimag(m) == 0 ? 0 : norm2(a1) * cimag(over(inside, shape)) - cimag(b1) - 5.0 / 3 * cimag(a2);
+	e.abs = fmax(6 * fmin(x, LARGEST) * absorbed, 0);
+	e.ext = e.sca + e.abs;
 	e.g = creal(times(a1, conj(a2 + b1))) / total;
 	e.back = x4 * norm2(3 * (a1 - b1) - 5 * a2);
 	return e;

@@ -16,6 +16,12 @@ static int number(const char *text, double *out, char **rest)
 	return 1;
 }
 
+/* The imaginary unit, and nothing after it: i, or j as electrical engineers write it. */
+static int imaginary(const char *text)
+{
+	return (*text == 'i' || *text == 'j') && !text[1];
+}
+
 const char *ior_parse(const char *text, struct ior *out)
 {
 	double re, im = 0;
@@ -29,10 +35,10 @@ const char *ior_parse(const char *text, struct ior *out)
 		}
 	if (!number(text, &re, &rest))
 		return materials_unknown;
-	if (*rest == 'i' && !rest[1])
+	if (imaginary(rest))
 		return "has no real part, which must be greater than 0";
 	if (*rest) {
-		if ((*rest != '+' && *rest != '-') || !number(rest, &im, &rest) || *rest != 'i' || rest[1])
+		if ((*rest != '+' && *rest != '-') || !number(rest, &im, &rest) || !imaginary(rest))
 			return "is not a refractive index (write it like 1.33 or 1.5+0.1i)";
 		if (signbit(im))
 			return "has a negative imaginary part; here a positive one absorbs (write it like 1.5+0.1i)";

@@ -23,7 +23,7 @@ struct ior {
 	double complex value;
 };
 
-/* ior_parse - "1.33", "1.5+0.1i", "1.5-0.1i" (refused, the message names the sign convention) or a material's name, in
+/* ior_parse - "1.33", "1.5+0.1i" or "1.5+0.1j", "1.5-0.1i" (refused, the message names the sign convention) or a material's name, in
  * upper or lower case. Returns NULL, or what is wrong. Re > 0, Im >= 0, both finite. */
 const char *ior_parse(const char *text, struct ior *out);
 

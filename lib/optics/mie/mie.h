@@ -37,7 +37,8 @@ int mie_lossless(int n, const double complex *a, const double complex *b);
 
 /* mie_efficiencies - sums over given coefficients a[n+1], b[n+1]; lossless: scattering equals extinction, absorption is 0.
  * *error, unless NULL: estimate of what rounding does to them, the larger of the relative errors of ext and sca and the absolute error
- * of g. It grows with x, and where m is near 1. On a narrow resonance the rounding of x itself can do far more; that is not in it. */
+ * of g. It grows with x, where m is near 1, and on a narrow resonance, where half a unit in the last place of x and m does more than all
+ * else; from coefficients alone, which do not tell m, that is rougher than of mie_many. */
 struct efficiencies mie_efficiencies(double x, int lossless, int n, const double complex *a, const double complex *b, double *error);
 
 /* mie_amplitudes - S1, S2 at angles theta[ntheta] (degrees, [0, 180]) by direct summation; 0, or -1 when memory ran out.

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* An angle folded into the front half: its distance from the nearer axis, and where it comes from, -1 where from none. */
 struct folded {
@@ -71,13 +72,13 @@ static int divide(int n, const struct folded *f, int *begin)
 }
 
 /* S1 + S2 = sum s (pi + tau), S1 - S2 = sum d (pi - tau) with s = a + b, d = a - b in front. Behind 90 deg, with theta' = 180 - theta,
- * pi + tau becomes (-1)^(l-1) (pi - tau): s becomes (-1)^(l-1) d, d the like of s, and the two sums change places. */
-static void factors(int n, const double complex *a, const double complex *b, struct mie_factors *k)
+ * pi + tau becomes (-1)^(l-1) (pi - tau): s becomes (-1)^(l-1) d, d the like of s, and the two sums change places. Of n orders. */
+static void factors(int first, int n, const double complex *a, const double complex *b, struct mie_factors *k)
 {
-	for (int l = 1; l <= n; l++) {
+	for (int l = first; l < first + n; l++) {
 		double w = (2.0 * l + 1) / (l + 1.0), sign = l % 2 ? w : -w;
 		double complex s = a[l] + b[l], d = a[l] - b[l];
-		k[l] = (struct mie_factors){ 1 + 1.0 / l, 2.0 / l, { { w * creal(s), w * cimag(s), w * creal(d), w * cimag(d) },
+		k[l - first] = (struct mie_factors){ 1 + 1.0 / l, 2.0 / l, { { w * creal(s), w * cimag(s), w * creal(d), w * cimag(d) },
 			{ sign * creal(d), sign * cimag(d), sign * creal(s), sign * cimag(s) } } };
 	}
 }
@@ -89,42 +90,72 @@ static void amplitude(double (*sum)[MIE_ANGLES], int i, int behind, double compl
 	*s2 = (behind ? w - u : u - w) / 2;
 }
 
+/* One block of angles and what is known of it. */
+struct block {
+	const struct folded *own;
+	int n, which;
+	double c[MIE_ANGLES];
+	struct mie_angles at;
+};
+
+static void begin_block(struct block *b, const struct folded *own, int n)
+{
+	memset(b, 0, sizeof *b);
+	b->own = own;
+	b->n = n;
+	b->which = side(own);
+	for (int i = 0; i < MIE_ANGLES; i++)
+		b->at.pi[i] = b->at.rise[i] = 1;
+	for (int i = 0; i < n; i++) {
+		double h = sin(own[i].t * (M_PI / 360));
+		b->c[i] = 2 * h * h;
+	}
+}
+
+static void end_block(struct block *b, double complex *s1, double complex *s2)
+{
+	for (int i = 0; i < b->n; i++) {
+		const struct folded *own = &b->own[i];
+		if (b->which & MIE_FRONT)
+			amplitude(b->at.sum, i, 0, &s1[own->front], &s2[own->front]);
+		if (b->which & MIE_BEHIND)
+			amplitude(b->which == MIE_PAIR ? b->at.sum + 4 : b->at.sum, i, 1, &s1[own->behind], &s2[own->behind]);
+	}
+}
+
+/* Factors of some orders at a time serve some blocks at a time: memory follows neither the orders nor the angles. */
+#define ORDERS 8192
+#define BLOCKS 1024
+
 int mie_amplitudes(int n, const double complex *a, const double complex *b, int ntheta, const double *theta,
                    double complex *s1, double complex *s2)
 {
-	struct mie_factors *k = malloc(((size_t)n + 1) * sizeof *k);
+	struct mie_factors *k = malloc(ORDERS * sizeof *k);
 	struct folded *f = malloc((2 * (size_t)ntheta + 1) * sizeof *f);
 	int *begin = malloc(((size_t)ntheta + 1) * sizeof *begin);    /* a block an angle at most */
 	const struct mie_lanes *lanes = mie_lanes();
-	if (!k || !f || !begin) {
-		free(k);
-		free(f);
-		free(begin);
-		return -1;
-	}
-	factors(n, a, b, k);
-	int blocks = divide(fold(ntheta, theta, f), f, begin);
-#pragma omp parallel for schedule(dynamic) if ((double)n * ntheta > 1e6)
-	for (int block = 0; block < blocks; block++) {
-		const struct folded *own = f + begin[block];
-		int angles = begin[block + 1] - begin[block], which = side(own);
-		double c[MIE_ANGLES] = { 0 }, sum[8][MIE_ANGLES];
-		for (int i = 0; i < angles; i++) {
-			double h = sin(own[i].t * (M_PI / 360));
-			c[i] = 2 * h * h;
+	int blocks = f && begin ? divide(fold(ntheta, theta, f), f, begin) : 0, most = blocks < BLOCKS ? blocks : BLOCKS;
+	struct block *block = malloc(((size_t)most + 1) * sizeof *block);
+	int bad = !k || !f || !begin || !block;
+	for (int from = 0; !bad && from < blocks; from += BLOCKS) {
+		int some = blocks - from < BLOCKS ? blocks - from : BLOCKS;
+		for (int i = 0; i < some; i++)
+			begin_block(&block[i], f + begin[from + i], begin[from + i + 1] - begin[from + i]);
+		for (int l = 1; l <= n; l += ORDERS) {
+			int orders = n - l < ORDERS ? n - l + 1 : ORDERS;
+			factors(l, orders, a, b, k);
+#pragma omp parallel for schedule(dynamic) if ((double)orders * some * MIE_ANGLES > 1e6)
+			for (int i = 0; i < some; i++)
+				lanes->angles(orders, k, block[i].which, block[i].c, &block[i].at);
 		}
-		lanes->angles(n, k, which, c, sum);
-		for (int i = 0; i < angles; i++) {
-			if (which & MIE_FRONT)
-				amplitude(sum, i, 0, &s1[own[i].front], &s2[own[i].front]);
-			if (which & MIE_BEHIND)
-				amplitude(which == MIE_PAIR ? sum + 4 : sum, i, 1, &s1[own[i].behind], &s2[own[i].behind]);
-		}
+		for (int i = 0; i < some; i++)
+			end_block(&block[i], s1, s2);
 	}
+	free(block);
 	free(begin);
 	free(k);
 	free(f);
-	return 0;
+	return bad ? -1 : 0;
 }
 
 int mie_terms_enough(int n, const double complex *a, const double complex *b, double tolerance)

@@ -21,7 +21,7 @@ INLINE void weights(double first, vec w[WEIGHTS])
 	w[CROSS] = 1.0 / (l * (l + 1.0) * w[W]);
 }
 
-enum { EXT, SCA, ASYM, BACK_RE, BACK_IM, SUMS };
+enum { EXT, SCA, ASYM, BACK_RE, BACK_IM, MOVED, SUMS };
 
 /* What an order adds, but for scattering; old: the order before. */
 INLINE void addends(const vec w[WEIGHTS], const vec *a, const vec *b, const vec *old_a, const vec *old_b, vec t[SUMS])
@@ -74,6 +74,8 @@ INLINE void orders(struct many *many, const struct downward_orders *e, int u, co
 		m.sum[BACK_IM] = t[BACK_IM] - m.sum[BACK_IM];
 		if (is.absorb)
 			m.sum[SCA] += own.sca;
+		if (is.from_x && !is.near)
+			m.sum[MOVED] += own.moved;
 		for (int c = 0; c < 2; c++) {
 			m.old_a[c] = own.a[c];
 			m.old_b[c] = own.b[c];
@@ -107,7 +109,8 @@ INLINE void spheres(struct mie_block *b, int first, const double *const w[WEIGHT
 		for (int i = 0; i < LANES; i++) {
 			vec *q = m.sum;
 			b->sums[first + u * LANES + i] = (struct mie_sums){ .ext = LANE(&q[EXT], i), .sca = LANE(&q[SCA], i),
-				.asym = LANE(&q[ASYM], i), .back_re = LANE(&q[BACK_RE], i), .back_im = LANE(&q[BACK_IM], i) };
+				.asym = LANE(&q[ASYM], i), .back_re = LANE(&q[BACK_RE], i), .back_im = LANE(&q[BACK_IM], i),
+				.moved = LANE(&q[MOVED], i) };
 		}
 	}
 }
@@ -183,6 +186,8 @@ INLINE void row(const struct mie_row *r, struct regime is)
 		store(r->b_im + i, own.b[1]);
 		if (is.absorb)
 			store(r->sca + i, own.sca);
+		if (is.from_x && !is.near && r->moved)
+			store(r->moved + i, own.moved);
 	}
 }
 
@@ -241,6 +246,8 @@ static void sums_of_one(const struct mie_row *r, struct mie_sums *sums)
 		store(&t[BACK_IM][i], own[BACK_IM]);
 	}
 	*sums = r->absorbs ? sum(r->count, t, r->sca, *sums) : sum(r->count, t, NULL, *sums);
+	for (int i = 0; r->moved && i < r->count; i++)
+		sums->moved += r->moved[i];
 }
 
 /* ------------------------------------------------------------------ many angles */
@@ -248,18 +255,19 @@ static void sums_of_one(const struct mie_row *r, struct mie_sums *sums)
 /* pi_l is carried with the difference v_l = pi_l - pi_{l-1} (after Wiscombe 1979, with mu = 1 - c put in), so that c counts with all its
  * digits: v_{l+1} = ((l+1) v_l - (2l+1) c pi_l)/l, (pi_l + tau_l)/l = (l+1)/l v_l - c pi_l. Of unroll vectors of angles, sums from k[l][0]
  * on, and twice as many from there if both. */
-INLINE void sum_waves(int both, int unroll, int n, const struct mie_factors *restrict k, int side, const double *c_,
-                      double (*out)[MIE_ANGLES])
+INLINE void sum_waves(int both, int unroll, int n, const struct mie_factors *restrict k, int side, const double *c_, int first,
+                      struct mie_angles *restrict a)
 {
 	vec c[UNROLL], p[UNROLL], v[UNROLL], sum[UNROLL][8];
 	for (int u = 0; u < unroll; u++) {
-		p[u] = v[u] = each(1);
+		memcpy(&p[u], &a->pi[first + u * LANES], sizeof(vec));
+		memcpy(&v[u], &a->rise[first + u * LANES], sizeof(vec));
 		for (int i = 0; i < (both ? 8 : 4); i++)
-			sum[u][i] = each(0);
+			memcpy(&sum[u][i], &a->sum[i][first + u * LANES], sizeof(vec));
 	}
 	for (int i = 0; i < unroll * LANES; i++)
-		LANE(c, i) = c_[i];
-	for (int l = 1; l <= n; l++) {
+		LANE(c, i) = c_[first + i];
+	for (int l = 0; l < n; l++) {
 		const double rise = k[l].rise, twice = k[l].twice, *f = k[l].side[side];
 #pragma GCC unroll 4
 		for (int u = 0; u < unroll; u++) {
@@ -278,22 +286,22 @@ INLINE void sum_waves(int both, int unroll, int n, const struct mie_factors *res
 			p[u] += v[u];
 		}
 	}
-	for (int u = 0; u < unroll; u++)
-		for (int j = 0; j < (both ? 8 : 4); j++)
-			memcpy(&out[j][u * LANES], &sum[u][j], sizeof(vec));
+	for (int u = 0; u < unroll; u++) {
+		memcpy(&a->pi[first + u * LANES], &p[u], sizeof(vec));
+		memcpy(&a->rise[first + u * LANES], &v[u], sizeof(vec));
+		for (int i = 0; i < (both ? 8 : 4); i++)
+			memcpy(&a->sum[i][first + u * LANES], &sum[u][i], sizeof(vec));
+	}
 }
 
-static void angles(int n, const struct mie_factors *k, int sides, const double *c, double (*out)[MIE_ANGLES])
+static void angles(int n, const struct mie_factors *k, int sides, const double *c, struct mie_angles *a)
 {
-	double part[8][MIE_ANGLES];
 	int both = sides == MIE_PAIR, width = LANES * (both ? UNROLL / 2 : UNROLL);
 	for (int first = 0; first < MIE_ANGLES; first += width) {
 		if (both)
-			sum_waves(1, UNROLL / 2, n, k, 0, c + first, part);
+			sum_waves(1, UNROLL / 2, n, k, 0, c, first, a);
 		else
-			sum_waves(0, UNROLL, n, k, sides == MIE_BEHIND, c + first, part);
-		for (int j = 0; j < (both ? 8 : 4); j++)
-			memcpy(out[j] + first, part[j], (size_t)width * sizeof(double));
+			sum_waves(0, UNROLL, n, k, sides == MIE_BEHIND, c, first, a);
 	}
 }
 

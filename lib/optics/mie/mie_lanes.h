@@ -9,8 +9,10 @@
 #include "base/cpu.h"
 #include "optics/mie/mie.h"
 
+#include <float.h>
 #include <stddef.h>
 
+#define MIE_OFF (0.75 * DBL_EPSILON)    /* relative error of x that does what rounding of x and m and of the recurrences does */
 #define MIE_NEAR 0.005         /* |m - 1| below which coefficients are taken from differences */
 
 static inline int mie_near(double complex m)
@@ -23,6 +25,7 @@ struct mie_sums {
 	double ext, sca;           /* sum (2l+1) Re(a + b), (2l+1) (|a|^2 + |b|^2) */
 	double asym;               /* sum l(l+2)/(l+1) Re(a_l a*_(l+1) + b_l b*_(l+1)) + (2l+1)/(l(l+1)) Re(a_l b*_l) */
 	double back_re, back_im;   /* sum (-1)^l (2l+1) (a - b), but for the sign */
+	double moved;              /* sum of the squares of (2l+1) times how far rounding may move a and b: narrow resonances */
 };
 
 /* Of coefficients a[n+1], b[n+1]; lossless: sca is not taken. */
@@ -30,7 +33,7 @@ void mie_sums_of(int lossless, int n, const double complex *a, const double comp
 
 /* Efficiencies, and the estimate of their error, of sums at size parameter x. */
 struct efficiencies mie_sums_efficiencies(double x, int lossless, const struct mie_sums *s);
-double mie_sums_error(double x, int lossless, const struct mie_sums *s);
+double mie_sums_error(double x, int lossless, int terms, const struct mie_sums *s);
 
 struct mie_block {
 	int absorbs, near;         /* some Im m > 0, else m_im is not looked at; all |m - 1| < MIE_NEAR */
@@ -55,6 +58,7 @@ struct mie_row {
 	const double *ex, *er, *ei, *size, *re, *im;
 	double *a_re, *a_im, *b_re, *b_im;    /* before them stand those of first - 1, or 0 */
 	double *sca;                          /* (|a|^2 + |b|^2) times as much, absorbing spheres only */
+	double *moved;                        /* as struct mie_sums has it; NULL: not asked for */
 };
 
 #define MIE_ANGLES 32
@@ -66,6 +70,12 @@ struct mie_factors {
 };
 enum { MIE_FRONT = 1, MIE_BEHIND = 2, MIE_PAIR = 3 };
 
+/* Sums at MIE_ANGLES angles over the orders so far, and pi_l of the next with its difference from the one before. */
+struct mie_angles {
+	double pi[MIE_ANGLES], rise[MIE_ANGLES];
+	double sum[8][MIE_ANGLES];
+};
+
 struct mie_lanes {
 	void (*block)(struct mie_block *b);
 	/* coefficients of a row, from psi .. im */
@@ -73,9 +83,10 @@ struct mie_lanes {
 	/* sums += those of a row, from its weighted coefficients, in order: the same bits as in a block */
 	void (*sums)(const struct mie_row *r, struct mie_sums *sums);
 	/* Sums over l of s_l (pi_l + tau_l)/l and d_l (pi_l - tau_l)/l at MIE_ANGLES angles in [0, 90] deg given by c = 1 - cos theta.
-	 * Given:    k[n+1], k[0] unused; sides: with the factors for angles in front, for those behind, or first with these, then with those
-	 * Returned: out[4, or 8 of a pair]: real and imaginary part of the one, then of the other sum */
-	void (*angles)(int n, const struct mie_factors *k, int sides, const double *c, double (*out)[MIE_ANGLES]);
+	 * Given:    k[n], the next orders; sides: with the factors for angles in front, for those behind, or first with these, then with those;
+	 *           a, before the first order pi and rise are 1, sums 0
+	 * Returned: a->sum[4, or 8 of a pair]: real and imaginary part of the one, then of the other sum */
+	void (*angles)(int n, const struct mie_factors *k, int sides, const double *c, struct mie_angles *a);
 };
 
 CPU_DECLARE(const struct mie_lanes, mie_lanes);

@@ -11,6 +11,7 @@ struct constants {
 	vec inv_re, inv_im, norm, less;      /* 1/m, |m|^2, Re 1/m - 1 */
 	vec c_re, c_im;                      /* (1 - 1/m^2)/x */
 	vec cm_re, cm_im;                    /* |m|^2 times that */
+	vec reach, missed;                   /* h |m^2 - 1| (|m| + 1/|m|), 4 h |m^2 - 1| times that: h, what x is off */
 };
 
 INLINE struct constants constants_of(int absorb, vec x, vec m_re, vec m_im, vec beyond, vec terms)
@@ -26,12 +27,19 @@ INLINE struct constants constants_of(int absorb, vec x, vec m_re, vec m_im, vec 
 		g.cm_re = g.c_re * m2;
 		g.cm_im = g.c_im * m2;
 		g.less = (m_re * (1.0 - m_re) - m_im * m_im) / m2;
+		g.reach = size_of((m_re - 1.0) * (m_re + 1.0) - m_im * m_im) + 2.0 * (m_re * m_im);
+		g.missed = size_of(vr) + size_of(vi);
 	} else {
 		g.inv_re = 1.0 / m_re;
 		g.inv_im = g.c_im = g.cm_re = g.cm_im = g.norm = each(0);
 		g.c_re = (m_re - 1.0) * (m_re + 1.0) * (g.inv_re * g.inv_re) * g.inv_x;
 		g.less = (1.0 - m_re) * g.inv_re;
+		g.reach = size_of((m_re - 1.0) * (m_re + 1.0));
+		g.missed = g.inv_re;
 	}
+	vec moved = MIE_OFF * x * g.reach;
+	g.reach = moved * (1.0 / g.missed + g.missed);
+	g.missed = 4.0 * moved * g.reach;
 	return g;
 }
 

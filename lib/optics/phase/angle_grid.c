@@ -63,6 +63,8 @@ long angle_grid_fine(double x, double tolerance, double *theta)
 	/* Equal shares of the error want intervals like theta^(2/3) in the diffraction rings, till interference takes over. */
 	double lobe = 180 / M_PI / (2 * x), peak = 3 * 180 / M_PI / sqrt(x);
 	long n = 0;
+	if (180 / inside > ANGLE_GRID_MOST)
+		return -1;
 	for (double h; h = inside * fmin(1, pow((t + lobe) / peak, 2.0 / 3)), h < inside && t < 90; t += h, n++)
 		if (theta)
 			theta[n] = t;

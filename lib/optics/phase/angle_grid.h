@@ -23,7 +23,9 @@ void angle_grid_equal(int n, double *theta);
 
 /* angle_grid_fine - number of angles of a fine grid, from 0 to 180 degrees, of which angle_grid_thin may choose for spheres up to size
  * parameter x: in the shortest period of interference, pi/x, several times the intervals that the tolerance needs there, four a
- * degree at least, and finer towards the forward peak. theta[] may be NULL. */
+ * degree at least, and finer towards the forward peak. theta[] may be NULL. -1, at no cost, where that is more than
+ * ANGLE_GRID_MOST. */
+#define ANGLE_GRID_MOST 0x1p27
 long angle_grid_fine(double x, double tolerance, double *theta);
 
 /* angle_grid_thin - as few angles of a fine grid as serve p[0 .. nwaves), phase functions on theta[n] (degrees) in sr^-1: between

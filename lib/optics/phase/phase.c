@@ -19,18 +19,6 @@ double phase_integral(int n, const double *theta, const double *p)
 	return sum;
 }
 
-void phase_cdf(int n, const double *theta, const double *p, int stride, uint32_t *cdf)
-{
-	double total = phase_integral(n, theta, p), sum = 0;
-	cdf[0] = 0;
-	for (int i = 0; i + 1 < n; i++) {
-		sum += phase_interval(theta[i], theta[i + 1] - theta[i], p[i], p[i + 1]);
-		double u = floor(sum / total * 0x1p32 + 0.5);
-		cdf[(long)(i + 1) * stride] = u < 0x1p32 ? (uint32_t)u : UINT32_MAX;
-	}
-	cdf[(long)(n - 1) * stride] = 0;
-}
-
 double phase_at(int n, const double *theta, const double *p, double angle)
 {
 	int low = 0, high = n - 1;

@@ -3,18 +3,12 @@
 #ifndef OPTICS_PHASE_H
 #define OPTICS_PHASE_H
 
-#include <stdint.h>
-
 /* phase_interval - integral over the ring between two nodes, 2 pi int p sin theta dtheta, exact for linear p.
  * h = theta1 - theta0 is at most 0.02 (the series used are then good to 1e-16). */
 double phase_interval(double theta0, double h, double p0, double p1);
 
 /* phase_integral - integral over the sphere, int p dOmega; 1 for a normalised phase function. Intervals as above. */
 double phase_integral(int n, const double *theta, const double *p);
-
-/* phase_cdf - probability of a scattering angle below each node in units of 2^-32, rounded; the last, 2^32, wraps to 0.
- * stride: cdf[i * stride] is written. */
-void phase_cdf(int n, const double *theta, const double *p, int stride, uint32_t *cdf);
 
 /* phase_at - p at an angle. */
 double phase_at(int n, const double *theta, const double *p, double angle);

@@ -22,6 +22,12 @@
 #define CHANNELS (s->channels)
 #define SPECTRAL (s->spectral)
 #endif
+/* A medium of several wavelengths, whose alpha has a colour, too. */
+#if defined WAVES && WAVES == 1
+#define COLOURED 0
+#else
+#define COLOURED (s->n_waves > 1)
+#endif
 #ifdef WAVES
 #define CARRIED WAVES
 #define EACH_WAVE(j) EACH(j, WAVES)

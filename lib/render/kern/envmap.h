@@ -24,7 +24,7 @@ FN fv envmap_pdf(const struct lights *l, const struct tables *t, mv m, iv row, i
 {
 	iv columns = l->map_height + 1 + row * (l->map_width + 1);
 	fv share = cdf_width(t->map_cdf, m, row) * 0x1p-31f * (cdf_width(t->map_cdf, m, columns + column) * 0x1p-31f);
-	return share * l->pick / texel_angle(l, row);
+	return share * l->map_pick / texel_angle(l, row);
 }
 
 /* The texel in a direction: top row +y, centre column -z, columns turn towards +x. */

@@ -16,9 +16,12 @@ enum {
 	SUM_ALPHA,                 /* 1 where the camera's ray was scattered, as a mean over all wavelengths */
 	SUM_DEPTH,                 /* how far away, times the former, in units of 2^-30 / depth_scale */
 	SUM_LUMINANCE,
+	SUM_ALPHA_BLUE,            /* what a coloured medium takes away from white light behind it, by channels */
 	SUM_SQUARE = 8,            /* of luminance: 128 bits, low half first, in units of 2^-60 */
 	SUM_GREEN = 10,            /* all, single, multiple; then blue */
-	FILM_SUMS = 18             /* then, if spectral, the radiance at each wavelength */
+	SUM_ALPHA_RED = 16,
+	SUM_ALPHA_GREEN,
+	FILM_SUMS                  /* then, if spectral, the radiance at each wavelength, and alpha at each */
 };
 #define SUM_OF(kind, channel) ((channel) ? SUM_GREEN + 3 * ((channel) - 1) + (kind) : (kind))
 
@@ -83,15 +86,20 @@ FN mv film_values(const struct scene *s, struct path *p, mv m, fv *value)
 		value[SUM_OF(SUM_MULTIPLE, c)] = more;
 		all[c] = value[SUM_OF(SUM_ALL, c)] + value[SUM_OF(SUM_SINGLE, c)] + value[SUM_OF(SUM_MULTIPLE, c)];
 	}
-	mv seen = le(zero, p->depth);    /* wavelengths of smaller groups are heroes more often */
+	/* wavelengths of smaller groups are heroes more often */
 	fv share = s->n_groups == 1 ? FV(1.f) : to_float(p->waves.n * s->n_groups) / (float)s->n_waves;
-	value[SUM_ALPHA] = SEL(seen, share, zero);
-	value[SUM_DEPTH] = SEL(seen, share * (p->depth * s->depth_scale), zero);
+	value[SUM_ALPHA] = share * p->cover;
+	value[SUM_DEPTH] = SEL(le(zero, p->depth), share * (p->depth * s->depth_scale), zero);
 	value[SUM_LUMINANCE] = CHANNELS == 1 ? all[0] : 0.2126f * all[0] + 0.7152f * all[1] + 0.0722f * all[2];
 	bad |= film_clamp(m, &value[SUM_LUMINANCE]);
+	value[SUM_ALPHA_RED] = COLOURED ? p->alpha[0] : zero;
+	value[SUM_ALPHA_GREEN] = COLOURED ? p->alpha[1] : zero;
+	value[SUM_ALPHA_BLUE] = COLOURED ? p->alpha[2] : zero;
+	if (COLOURED)
+		bad |= film_clamp(m, &value[SUM_ALPHA_RED]) | film_clamp(m, &value[SUM_ALPHA_GREEN]) | film_clamp(m, &value[SUM_ALPHA_BLUE]);
 	if (SPECTRAL)
 		EACH_WAVE(j)
-			bad |= film_clamp(m, &p->spectrum[j]);
+			bad |= film_clamp(m, &p->spectrum[j]) | film_clamp(m, &p->spectral_alpha[j]);
 	return bad;
 }
 
@@ -99,18 +107,20 @@ FN mv film_values(const struct scene *s, struct path *p, mv m, fv *value)
  * the sum of squares passes its own. */
 FN uint64 film_take(const struct scene *s, GLOBAL int64 *sum, const struct path *p, const fv *value, int i, l8 *over)
 {
-#define SIX(v) F8(LANE_FLOAT((v)[0], i), LANE_FLOAT((v)[1], i), LANE_FLOAT((v)[2], i), LANE_FLOAT((v)[3], i), \
-                  LANE_FLOAT((v)[4], i), LANE_FLOAT((v)[5], i), 0.f, 0.f)
-	l8 n = film_integers(SIX(value));
+#define EIGHT(v, a, b) F8(LANE_FLOAT((v)[0], i), LANE_FLOAT((v)[1], i), LANE_FLOAT((v)[2], i), LANE_FLOAT((v)[3], i), \
+                          LANE_FLOAT((v)[4], i), LANE_FLOAT((v)[5], i), a, b)
+	l8 n = film_integers(EIGHT(value, LANE_FLOAT(value[SUM_ALPHA_BLUE], i), 0.f));
 	*over |= film_add8(sum, n);
 	uint64 high = film_add_square(sum + SUM_SQUARE, PART(n, SUM_LUMINANCE));
 	if (CHANNELS == 3)
-		*over |= film_add8(sum + SUM_GREEN, film_integers(SIX(value + SUM_GREEN)));
+		*over |= film_add8(sum + SUM_GREEN, film_integers(EIGHT(value + SUM_GREEN, LANE_FLOAT(value[SUM_ALPHA_RED], i), LANE_FLOAT(value[SUM_ALPHA_GREEN], i))));
+#undef EIGHT
 	for (int j = 0; SPECTRAL && j < LANE(p->waves.n, i); j++) {
 		GLOBAL int64 *own = sum + FILM_SUMS + LANE(p->waves.first, i) + s->n_groups * j;
-		float v = LANE_FLOAT(p->spectrum[j], i);
-		l8 all = l8_sum(film_integers(F8(v, v, v, v, v, v, v, v)), L8(*own, 0, 0, 0, 0, 0, 0, 0));
-		*own = PART(all, 0);
+		float v = LANE_FLOAT(p->spectrum[j], i), a = LANE_FLOAT(p->spectral_alpha[j], i);
+		l8 all = l8_sum(film_integers(F8(v, a, 0.f, 0.f, 0.f, 0.f, 0.f, 0.f)), L8(own[0], own[s->n_waves], 0, 0, 0, 0, 0, 0));
+		own[0] = PART(all, 0);
+		own[s->n_waves] = PART(all, 1);
 		*over |= film_beyond(all);
 	}
 	(void)i;                   /* of one lane, unused */

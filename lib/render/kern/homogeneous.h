@@ -17,6 +17,7 @@ FN void homogeneous_begin(const struct scene *s, const struct volume *v, const s
 	PUT3(m, g->entry, add(r.from, scale(r.along, t0)));
 	PUT3(m, g->along, r.along);
 	PUT(m, g->t0, t0);
+	SET_TRUTH(m, g->forced, NO_LANE);
 	PUT(m, h->length, fv_max(fv_min(t1, t_end) - t0, FV(0.f)));
 }
 
@@ -24,6 +25,27 @@ FN void homogeneous_step(const struct scene *s, const struct volume *v, const st
                          struct waves w, const struct random *random)
 {
 	(void)s, (void)v, (void)t, (void)g, (void)h, (void)w, (void)random;
+}
+
+/* Camera flights m: forced where they are thin. None has to go again. */
+FN mv homogeneous_force(const struct scene *s, const struct volume *v, const struct tables *t, struct traversal *g, struct homogeneous *h,
+                        mv m, struct waves w, const struct random *random)
+{
+	fv thickest = FV(0.f);
+	(void)v, (void)random;
+	EACH_WAVE(j)
+		thickest = fv_max(thickest, of_wave(s, t->extinction, 0, m, w, j) * h->length);
+	SET_TRUTH(m, g->forced, lt(FV(0.f), thickest) & lt(thickest, FV(FORCED_DEPTH)));
+	return NO_LANE;
+}
+
+/* The optical depth of all that lies before the end of flights m. */
+FN void homogeneous_depth(const struct scene *s, const struct volume *v, const struct tables *t, struct traversal *g, struct homogeneous *h,
+                          mv m, struct waves w, fv *out)
+{
+	(void)v, (void)g;
+	EACH_WAVE(j)
+		out[j] = of_wave(s, t->extinction, 0, m, w, j) * h->length;
 }
 
 FN void homogeneous_transmittance(const struct scene *s, const struct volume *v, const struct tables *t, struct traversal *g,
@@ -38,12 +60,16 @@ FN struct collision homogeneous_end(const struct scene *s, const struct volume *
                                     struct homogeneous *h, mv m, struct waves w, const struct random *random, fv *flight_pdf)
 {
 	fv sigma = of_hero(s, t->extinction, m, w), free = free_path(draw_bits(random, DRAW_FLIGHT));
+	if (any(m & g->forced))
+		SET(g->forced, free, forced_path(draw_bits(random, DRAW_FLIGHT), sigma * h->length));
 	mv happened = m & lt(free, sigma * h->length);
 	fv length = SEL(happened, free * (1.f / sigma), h->length);
 	struct collision c = { happened, add(g->entry, scale(g->along, length)), g->t0 + length, IV(v->n_classes), IV(NONE) };
 	EACH_WAVE(j) {
 		fv own = of_wave(s, t->extinction, 0, m, w, j);
 		flight_pdf[j] = expneg(own * length) * SEL(c.happened, own, FV(1.f));
+		if (CARRIED > 1 && any(m & g->forced))
+			SET(g->forced, flight_pdf[j], flight_pdf[j] / one_less_exp(fv_max(own * h->length, FV(1e-30f))));
 	}
 	return c;
 }

@@ -15,7 +15,8 @@ struct light_sample {
 	struct vec along, inverse;
 	fv t_end;                  /* where it shines from */
 	iv surface;                /* that it is, or NONE */
-	fv pdf;                    /* of drawing this light and this direction, sr^-1; 0: delta light */
+	fv pick;                   /* probability of drawing this light */
+	fv pdf;                    /* of drawing it and this direction, sr^-1; 0: delta light */
 	fv rgb[3];                 /* radiance; of delta light irradiance */
 	mv shines, distant, spiky; /* as in struct light */
 };
@@ -24,7 +25,7 @@ struct light_sample {
 FN fv quad_pdf(const struct scene *s, const struct light *l, struct vec along, fv t)
 {
 	fv c = -dot3(load3(s->surfaces.surface[l->surface].normal), along);
-	return SEL(lt(FV(0.f), c), t * (t * (l->pdf * s->lights.pick)) / c, FV(0.f));
+	return SEL(lt(FV(0.f), c), t * (t * l->pdf) / c, FV(0.f));
 }
 
 /* Light i seen from the points of lanes m. */
@@ -32,7 +33,7 @@ FN void light_draw(const struct scene *s, const struct tables *t, mv m, int i, s
                    struct light_sample *d)
 {
 	const struct light *l = &s->lights.light[i];
-	*d = (struct light_sample){ load3(l->at), load3(l->inverse), FV(FAR), IV(NONE), FV(l->pdf * s->lights.pick),
+	*d = (struct light_sample){ load3(l->at), load3(l->inverse), FV(FAR), IV(NONE), FV(l->pick), FV(l->pdf),
 		{ FV(l->rgb[0]), FV(l->rgb[1]), FV(l->rgb[2]) }, m, l->distant ? m : NO_LANE, l->spiky ? m : NO_LANE };
 	if (l->delta)
 		return;
@@ -58,14 +59,16 @@ FN void light_draw(const struct scene *s, const struct tables *t, mv m, int i, s
 	d->inverse = inverse3(d->along);
 }
 
-/* One of the lights, all equally likely. */
+/* One of the lights, each by its pick. */
 FN void light_choose(const struct scene *s, const struct tables *t, mv m, struct vec point, const struct random *random,
                      struct light_sample *d)
 {
 	mv own = m;
 	iv which = IV(0);
 	if (s->lights.n > 1) {
-		which = to_int(draw(random, DRAW_LIGHT) * (float)s->lights.n);
+		fv u = draw(random, DRAW_LIGHT);
+		for (int i = 0; i < s->lights.n - 1; i++)
+			which += SEL(le(FV(s->lights.light[i].until), u), IV(1), IV(0));
 		own &= ieq(which, IV(0));
 	}
 	light_draw(s, t, own, 0, point, random, d);
@@ -79,6 +82,7 @@ FN void light_choose(const struct scene *s, const struct tables *t, mv m, struct
 		set3(own, &d->inverse, other.inverse);
 		SET(own, d->t_end, other.t_end);
 		SET(own, d->surface, other.surface);
+		SET(own, d->pick, other.pick);
 		SET(own, d->pdf, other.pdf);
 		EACH(k, 3)
 			SET(own, d->rgb[k], other.rgb[k]);
@@ -133,7 +137,7 @@ FN void sky_radiance(const struct scene *s, const struct tables *t, mv m, struct
 			envmap_value(&s->lights, t, m, row, column, own);
 			k = mis_weight(path_pdf, envmap_pdf(&s->lights, t, m, row, column));
 		} else {
-			k = SEL(le(dot3(off, off), FV(2.f * l->one_minus_cos)), mis_weight(path_pdf, FV(l->pdf * s->lights.pick)), FV(0.f));
+			k = SEL(le(dot3(off, off), FV(2.f * l->one_minus_cos)), mis_weight(path_pdf, FV(l->pdf)), FV(0.f));
 		}
 		EACH(c, 3)
 			if (l->spiky)

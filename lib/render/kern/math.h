@@ -43,6 +43,19 @@ FN fv free_path(uv bits)
 	return -(to_float(e) * 0.693147181f + log_near(SEL(ilt(n, IV(0x20000000)), -u, m)));    /* u < 1/4: e is 0 */
 }
 
+/* 1 - exp(-x) for 0 <= x <= 1/8; relative error below 1e-7. */
+FN fv one_less_exp(fv x)
+{
+	return x * (1.f - x * (0.5f - x * (0.166666667f - x * (0.0416666667f - x * 0.00833333333f))));
+}
+
+/* The optical depth of a flight that ends before depth x <= 1/8, by the same bits. */
+FN fv forced_path(uv bits, fv x)
+{
+	fv u = (to_float(signed_of(bits >> 1)) + 0.5f) * 0x1p-31f;
+	return -log_near(-u * one_less_exp(x));
+}
+
 /* exp(-x) for x >= 0, 0 beyond 87; relative error below 1e-7 (1 + x). */
 FN fv expneg(fv x)
 {

@@ -8,7 +8,8 @@
 
 /* What wavelengths scatter from the path's direction into another one at their vertices, lanes m, sr^-1: a phase function, or on the
  * ground a cosine on the side that the path comes from. */
-FN void vertex_value(const struct scene *s, const struct volume *v, const struct tables *t, const struct path *p, mv m, struct vec along, fv *value)
+FN void vertex_value(const struct scene *s, const struct volume *v, const struct tables *t, const struct path *p, mv m, struct vec along,
+                     fv *value)
 {
 	mv ground = ON_GROUND(p->vertex);
 	if (IS_ISOTROPIC(v))
@@ -40,7 +41,7 @@ FN mv nee_roulette(const struct scene *s, struct path *p, mv m, mv shines, mv di
 FN fv nee_weigh(const struct scene *s, const struct volume *v, const struct tables *t, struct path *p, mv m, const struct light_sample *d,
                 const fv *value, mv chained, mv straight)
 {
-	fv direction_pdf = FV(0.f), k = FV((float)s->lights.n), alone = k, largest = FV(0.f);    /* alone: met by no path */
+	fv direction_pdf = FV(0.f), k = 1.f / d->pick, alone = k, largest = FV(0.f);    /* alone: met by no path */
 	EACH_WAVE(j)
 		direction_pdf += value[j] * PATH_PDF(p, j);
 	if (CARRIED > 1)

@@ -68,7 +68,8 @@ FN void particles_begin(const struct scene *s, const struct volume *v, const str
 	fv x = fv_abs(d[0]), y = fv_abs(d[1]), z = fv_abs(d[2]);
 	SET_TRUTH(m, q->a_is_x, lt(y, x) & lt(z, x));
 	SET_TRUTH(m, q->a_is_y, NOT(lt(y, x)) & lt(z, y));
-	fv inv[3] = { r.inverse.x, r.inverse.y, r.inverse.z }, d_a = BY_A(q, d), inverse_a = BY_A(q, inv), slope_b = BY_B(q, d) * inverse_a, slope_c = BY_C(q, d) * inverse_a;
+	fv inv[3] = { r.inverse.x, r.inverse.y, r.inverse.z }, d_a = BY_A(q, d), inverse_a = BY_A(q, inv);
+	fv slope_b = BY_B(q, d) * inverse_a, slope_c = BY_C(q, d) * inverse_a;
 	fv cell_a = BY_A(q, cell), inverse_b = BY_B(q, cells_per_m), inverse_c = BY_C(q, cells_per_m);
 	fv wide_a = v->query_radius * fv_sqrt(fv_max(FV(0.f), 1.f - d_a * d_a)), origin = BY_A(q, low) - BY_A(q, at);
 	fv start = -wide_a - origin, end = d_a * t1, inverse_cell = BY_A(q, cells_per_m);
@@ -122,7 +123,8 @@ FN struct vec particle_at(const struct tables *t, mv m, iv n, iv *class)
 }
 
 /* Lanes m, whose row is done, go to the next one, of a further layer if need be, or end. */
-FN void particles_row(const struct scene *s, const struct volume *v, const struct tables *t, struct traversal *g, struct particle_query *q, mv m)
+FN void particles_row(const struct scene *s, const struct volume *v, const struct tables *t, struct traversal *g,
+                      struct particle_query *q, mv m)
 {
 	const iv cells[3] = { IV(v->cells[0]), IV(v->cells[1]), IV(v->cells[2]) };
 	SET(m, q->y, q->y + 1);

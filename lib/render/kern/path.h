@@ -6,7 +6,6 @@
 #ifndef KERN_PATH_H
 #define KERN_PATH_H
 
-#include "render/kern/camera.h"
 #include "render/kern/nee.h"
 #include "render/kern/splitting.h"
 
@@ -33,10 +32,13 @@ FN void path_begin(const struct scene *s, struct path *p, mv m, iv pixel, iv col
 		SET(m, p->weight[j], FV((float)s->n_groups));
 		SET(m, p->path_pdf[j], SEL(ilt(IV(j), p->waves.n), FV(1.f), FV(0.f)));
 		SET(m, p->spectrum[j], FV(0.f));
+		SET(m, p->spectral_alpha[j], FV(0.f));
 		SET(m, p->peak_share[j], FV(1.f));
 	}
 	SET(m, p->direction_pdf, FV(0.f));
 	SET(m, p->depth, FV(-1.f));
+	SET(m, p->cover, FV(0.f));
+	SET(m, p->rare, FV(1.f));
 	SET(m, p->order, IV(0));
 	for (int i = 0; i < CHANNELS; i++) {
 		SET(m, p->rgb[i], FV(0.f));
@@ -44,11 +46,15 @@ FN void path_begin(const struct scene *s, struct path *p, mv m, iv pixel, iv col
 		SET(m, p->before[1][i], FV(0.f));
 		SET(m, p->aside[0][i], FV(0.f));
 		SET(m, p->aside[1][i], FV(0.f));
+		SET(m, p->alpha[i], FV(0.f));
 	}
 	SET(m, p->split.branch, unsigned_of(sample) * (uint32)s->branches);
 	SET(m, p->split.left, IV(0));
 	next_vertex(&p->random, m);
 }
+
+/* Flights that may be forced to end in the medium: the camera's, but those to the ground. */
+#define MAY_BE_FORCED(p) (ieq((p)->order, IV(0)) & FROM_CAMERA(p) & NOT(ieq((p)->surface, IV(GROUND))))
 
 /* Paths m set out on a flight from where they are. */
 FN void path_fly(const struct scene *s, const struct volume *v, const struct tables *t, struct path *p, mv m)
@@ -61,6 +67,8 @@ FN void path_fly(const struct scene *s, const struct volume *v, const struct tab
 	if (LANES_WAIT)
 		set_random(m, &p->walk_random, p->random);
 	volume_begin(s, v, t, &p->walk, m, p->ray, t_end, ALL_LANES, p->waves, &p->random);
+	if (KNOWS_DEPTH(v) && TAKES_STEPS(v) && any(m & MAY_BE_FORCED(p)))
+		volume_measure(s, v, t, &p->walk, m & MAY_BE_FORCED(p), p->waves);
 }
 
 /* What ends paths m, which did not scatter: a quad, or what lies behind everything. */
@@ -85,14 +93,89 @@ FN void path_leave(const struct scene *s, const struct volume *v, const struct t
 	}
 }
 
+/* Camera rays m have come to their first surface, or been scattered before it: at wavelength j the medium took away taken[j] of what is
+ * behind. */
+FN void path_alpha(const struct scene *s, const struct tables *t, struct path *p, mv m, const fv *taken)
+{
+	EACH_WAVE(j) {
+		fv add = SEL(m & ilt(IV(j), p->waves.n), taken[j] * (float)s->n_groups, FV(0.f));
+		for (int i = 0; COLOURED && i < 3; i++) {
+#ifdef WAVES
+			p->alpha[i] += add * float_at(t->colour, 6 * j + i);
+#else
+			p->alpha[i] += add * gather(m, t->colour, 6 * wave_of(s, p->waves, j) + i);
+#endif
+		}
+		if (SPECTRAL)
+			p->spectral_alpha[j] += add;
+	}
+}
+
+/* Where almost all of the camera's rays would pass the medium, chance makes black pixels and a few bright ones. There the first scattering is
+ * forced: what is seen unscattered is taken in as it is, and the path goes on from a scattering with the weight that one has. Where that
+ * weight is below FORCED_LEAST, chance decides once more, so that what is scattered does not vanish between the film's units. A ray that ends
+ * at the ground, which lights it, is left to chance. */
+#define FORCED_LEAST 0x1p-13f
+
+/* Before their flights end: paths m see what is unscattered. */
+FN void path_force(const struct scene *s, const struct volume *v, const struct tables *t, struct path *p, mv m)
+{
+	fv depth[CARRIED], taken[CARRIED], most = FV(0.f), mean = FV(0.f);
+	volume_depth(s, v, t, &p->walk, m, p->waves, depth);
+	EACH_WAVE(j) {
+		taken[j] = SEL(ilt(IV(j), p->waves.n), one_less_exp(depth[j]), FV(0.f));
+		most = fv_max(most, taken[j]);
+		mean += taken[j];
+		SET(m, p->weight[j], (float)s->n_groups * (1.f - taken[j]));
+	}
+	path_leave(s, v, t, p, m);
+	if (COLOURED || SPECTRAL)
+		path_alpha(s, t, p, m, taken);
+	SET(m, p->cover, mean / to_float(p->waves.n));
+	EACH_WAVE(j)
+		SET(m, p->weight[j], (float)s->n_groups * taken[j]);
+	SET(m, p->rare, 1.f / fv_max(most, FV(1e-30f)));
+}
+
+/* They are scattered at distance t. Returns those that chance ends there. */
+FN mv path_forced(const struct scene *s, struct path *p, mv m, fv t)
+{
+	fv weight = FV(0.f), chance = fv_min(FV(1.f), (1.f / FORCED_LEAST) / p->rare);
+	EACH_WAVE(j)
+		weight += p->weight[j] * PATH_PDF(p, j);
+	SET(m, p->depth, camera_distance(&s->camera, p->ray.along, t) * (weight / ((float)s->n_groups * to_float(p->waves.n))));
+	mv on = m & lt(draw(&p->random, DRAW_FORCED), chance);
+	EACH_WAVE(j)
+		SET(on, p->weight[j], p->weight[j] / chance);
+	SET(on, p->rare, p->rare * chance);
+	return m & NOT(on);
+}
+
 /* Flights of lanes m have ended. Returns the lanes whose path is over. */
 FN mv path_arrive(const struct scene *s, const struct volume *v, const struct tables *t, struct path *p, mv m)
 {
 	fv flight_pdf[CARRIED];
+	mv forced = NO_LANE;
+	if (KNOWS_DEPTH(v) && any(m & MAY_BE_FORCED(p))) {
+		m &= NOT(volume_force(s, v, t, &p->walk, m & MAY_BE_FORCED(p), p->waves, &p->random));
+		forced = m & MAY_BE_FORCED(p) & p->walk.ray.forced;
+		if (any(forced))
+			path_force(s, v, t, p, forced);
+	}
 	struct collision c = volume_end(s, v, t, &p->walk, m, p->waves, &p->random, flight_pdf);
 	mv alive = m & lt(FV(0.f), take_pdf(s, p->waves, p->path_pdf, m, flight_pdf));
-	mv hit = alive & c.happened, ground = alive & NOT(c.happened) & ieq(p->surface, IV(GROUND)), out = alive & NOT(hit | ground);
+	if (any(forced))
+		alive &= NOT(path_forced(s, p, forced & alive & c.happened, c.t));
+	mv hit = alive & c.happened, ground = alive & NOT(c.happened) & ieq(p->surface, IV(GROUND)), out = alive & NOT(hit | ground | forced);
 	mv over = m & NOT(hit | ground);
+	if (COLOURED || SPECTRAL) {
+		mv seen = m & NOT(forced) & ieq(p->order, IV(0)) & FROM_CAMERA(p);
+		fv taken[CARRIED];
+		EACH_WAVE(j)    /* 1 less what is seen of light behind, so that both are one to the last bit */
+			taken[j] = SEL(alive & NOT(hit), 1.f - PATH_PDF(p, j), FV(1.f));
+		if (any(seen))
+			path_alpha(s, t, p, seen, taken);
+	}
 	p->flying &= NOT(m);
 	if (any(out))
 		path_leave(s, v, t, p, out);
@@ -128,7 +211,7 @@ FN mv roulette(const struct scene *s, struct path *p, mv m)
 	fv throughput = FV(0.f);
 	EACH_WAVE(j)
 		throughput = fv_max(throughput, p->weight[j] * PATH_PDF(p, j));
-	fv q = 4.f * (float)s->branches * throughput;
+	fv q = 4.f * (float)s->branches * (throughput * p->rare);
 	mv doubtful = m & lt(q, FV(1.f));
 	if (!any(doubtful))
 		return m;

@@ -7,6 +7,7 @@
 #ifndef KERN_PATH_STATE_H
 #define KERN_PATH_STATE_H
 
+#include "render/kern/camera.h"
 #include "render/kern/volume.h"
 
 enum { VERTEX_MEDIUM, VERTEX_GROUND };
@@ -56,8 +57,12 @@ struct path {
 	iv order;                  /* times that it did, from 2 on 2; reflections by surfaces do not count */
 	fv before[2][3];           /* what was seen unscattered, and scattered once, of an order that is over */
 	fv aside[2][3];            /* what came by chains, or by branches that are over, scattered once and more often on the whole */
-	fv depth;                  /* along the camera's ray to where the medium scattered it, -1 if it did not */
+	fv cover;                  /* what the medium takes away from the camera's ray, as a mean over its wavelengths */
+	fv depth;                  /* along the camera's ray to where the medium scattered it, -1 if it did not; of a forced flight times cover */
+	fv rare;                   /* 1 / the probability that a flight was forced to end in the medium, else 1 */
 	fv spectrum[CARRIED];      /* all that was seen, by wavelength; kept for spectral images */
+	fv alpha[3];               /* what the medium took away from white light behind it; of one wavelength not kept */
+	fv spectral_alpha[CARRIED];     /* the same by wavelength, as spectrum */
 	/* on the way: in flight to a surface or beyond, or from a vertex to a light */
 	struct volume_walk walk;
 	struct random walk_random; /* of the walk: the vertex's, or a chain's own */
@@ -73,6 +78,9 @@ struct path {
 
 /* Of one wavelength the pdf is its own mean. */
 #define PATH_PDF(p, j) (CARRIED == 1 ? FV(1.f) : (p)->path_pdf[j])
+
+/* Rays that come from the camera. */
+#define FROM_CAMERA(p) le((p)->direction_pdf, FV(0.f))
 
 #define ON_GROUND(vertex) (HAS_GROUND ? ieq((vertex).kind, IV(VERTEX_GROUND)) : NO_LANE)
 
@@ -101,7 +109,9 @@ FN void next_order(const struct scene *s, struct path *p, mv m, fv t)
 	m &= ilt(p->order, IV(2));
 	if (!any(m))
 		return;
-	SET(m & ieq(p->order, IV(0)) & le(p->direction_pdf, FV(0.f)), p->depth, t);
+	mv first = m & ieq(p->order, IV(0)) & FROM_CAMERA(p);
+	SET(first & lt(p->depth, FV(0.f)), p->depth, camera_distance(&s->camera, p->ray.along, t));
+	SET(first, p->cover, SEL(lt(FV(0.f), p->cover), p->cover, FV(1.f)));
 	EACH(k, 2) {
 		mv over = m & ieq(p->order, IV(k));
 		for (int i = 0; i < CHANNELS; i++)

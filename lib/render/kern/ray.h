@@ -18,7 +18,8 @@ FN fv inverse(fv x) { return 1.f / away_from_zero(x, 1e-20f); }
 /* 1 / x, 1 / y, 1 / z of a direction by one division; no less than 1e-12 in size is taken. */
 FN struct vec inverse3(struct vec v)
 {
-	fv x = away_from_zero(v.x, 1e-12f), y = away_from_zero(v.y, 1e-12f), z = away_from_zero(v.z, 1e-12f), xy = x * y, all = 1.f / (xy * z), k = all * z;
+	fv x = away_from_zero(v.x, 1e-12f), y = away_from_zero(v.y, 1e-12f), z = away_from_zero(v.z, 1e-12f);
+	fv xy = x * y, all = 1.f / (xy * z), k = all * z;
 	return vec3(y * k, x * k, xy * all);
 }
 

@@ -10,7 +10,9 @@
 #define MAX_LIGHTS 16    /* lights and surfaces each */
 
 struct camera {
-	float eye[3], right[3], up[3], forward[3];   /* a ray leaves along forward + x right + y up, x and y in [-1, 1] */
+	float right[3], up[3], forward[3];           /* a ray leaves along forward + x right + y up, x and y in [-1, 1] */
+	float ahead;               /* it begins so far ahead of the eye along forward, m: at the eye, or where the scene begins for a */
+	float from[3], across[3], rise[3];           /* far one, at from + x across + y rise */
 	int width, height;
 };
 
@@ -51,7 +53,8 @@ struct light {
 	int distant;               /* a shadow ray to it is long, and sent the more seldom the less is scattered that way */
 	int spiky;                 /* so small that a peak makes spikes of it, see forward_peak.h */
 	float rgb[3];              /* radiance, of delta light irradiance; a map has its own */
-	float pdf;                 /* sun: of the directions drawn over the disc, sr^-1; quad: of its points, m^-2 */
+	float pick, until;         /* probability that it is the one drawn, and that it or one before it is */
+	float pdf;                 /* with pick in it; sun: of the directions drawn over the disc, sr^-1; quad: of its points, m^-2 */
 	float at[3], inverse[3];   /* sun: unit vector to its centre; 1 / that */
 	float one_minus_cos;       /* sun: of its angular radius */
 	int surface;               /* quad: whose front it is */
@@ -60,7 +63,7 @@ struct light {
 struct lights {
 	float environment[3];      /* radiance, the same all around */
 	int n;
-	float pick;                /* 1 / n: each is drawn as often */
+	float map_pick;            /* the map's pick */
 	int map_width, map_height;
 	float map_angle;           /* solid angle of a texel / sin of the polar angle of its centre, sr */
 	struct light light[MAX_LIGHTS];
@@ -92,7 +95,7 @@ struct scene {
 	int branches;              /* ways that a camera ray goes on from where the medium first scatters it */
 	float branch_share;        /* 1 / branches */
 	int channels;              /* 3; 1 where red, green and blue are the same */
-	int film_sums;             /* of a pixel: FILM_SUMS, and one a wavelength if spectral */
+	int film_sums;             /* of a pixel: FILM_SUMS, and two a wavelength if spectral */
 	int spectral;
 	float depth_scale;         /* a power of 2: depths times this are below 1 */
 };

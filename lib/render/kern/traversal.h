@@ -9,11 +9,15 @@
 
 /* Random numbers of a vertex. Even ones come first; an alias table tears apart what is even, so its numbers are not. */
 enum { DRAW_FLIGHT, DRAW_AZIMUTH, DRAW_COSINE, DRAW_LIGHT, DRAW_LIGHT_1, DRAW_LIGHT_2,
-       DRAW_CLASS, DRAW_SHADOW, DRAW_SHADOWED, DRAW_ANGLE, DRAW_PLACE, DRAW_ROULETTE, DRAW_CHAIN };
+       DRAW_CLASS, DRAW_SHADOW, DRAW_SHADOWED, DRAW_ANGLE, DRAW_PLACE, DRAW_ROULETTE, DRAW_CHAIN, DRAW_FORCED };
+
+/* A flight of the camera through an optical depth between none and this, at every wavelength, ends in the medium: see path_force. */
+#define FORCED_DEPTH 0.0625f
 
 struct traversal {
 	mv going;                  /* still to take steps */
 	mv flight;                 /* else a shadow ray */
+	mv forced;                 /* a flight that ends in the medium */
 	struct vec entry, along;   /* where the ray comes to the volume: from afar, floats would be too coarse */
 	fv t0;                     /* entry, along the ray */
 };

@@ -60,6 +60,33 @@ FN struct collision volume_end(const struct scene *s, const struct volume *v, co
 	return c;
 }
 
+/* Whether the optical depth of a flight's whole way can be known. */
+#define KNOWS_DEPTH(v) (!USES_PARTICLES(v))
+#define DEPTH_MODEL(op, ...) (TRANSPORT_OF(v) == TRANSPORT_GRID ? voxels_##op(s, v, t, &g->ray, &g->voxels, __VA_ARGS__) \
+	: homogeneous_##op(s, v, t, &g->ray, &g->homogeneous, __VA_ARGS__))
+
+/* Camera flights m, which set out, learn how thick the volume is. */
+FN void volume_measure(const struct scene *s, const struct volume *v, const struct tables *t, struct volume_walk *g, mv m, struct waves w)
+{
+	if (TRANSPORT_OF(v) == TRANSPORT_GRID)
+		voxels_measure(s, v, t, &g->voxels, m, w);
+}
+
+/* They have ended: those that went through little are forced to end in the volume (ray.forced). Returns those that have to take their steps
+ * again. */
+FN mv volume_force(const struct scene *s, const struct volume *v, const struct tables *t, struct volume_walk *g, mv m, struct waves w,
+                   const struct random *random)
+{
+	return DEPTH_MODEL(force, m, w, random);
+}
+
+/* The optical depth of the whole way of forced flights m, at each wavelength. */
+FN void volume_depth(const struct scene *s, const struct volume *v, const struct tables *t, struct volume_walk *g, mv m, struct waves w, fv *out)
+{
+	DEPTH_MODEL(depth, m, w, out);
+}
+
+#undef DEPTH_MODEL
 #undef MODEL
 
 #endif

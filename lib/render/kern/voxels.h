@@ -25,11 +25,27 @@ struct voxel_dda {
 	mv reached;                /* came to the target: of a flight in the hero's optical depth, else in the least of all */
 	fv depth[CARRIED];         /* passed: in cubes the optical depth of each wavelength, in a density its integral, in depth[0] */
 	fv target;
+	fv asked;                  /* of a camera flight that looks how thick the volume is: where it would end; else -1 */
+	fv whole[CARRIED];         /* optical depth of all that lies before the end of a forced flight */
 	fv t, t1;                  /* from entry: of the cell that it is in, where it enters; where it leaves the medium */
 	fv span;                   /* of the cell that has the target */
 	/* in cells, from the low end: entry, direction and its inverse, 1 where it goes up; the cell */
 	fv at[3], d[3], inverse[3], up[3], cell[3];
 };
+
+/* Lanes m set out from where they enter. */
+FN void voxels_start(const struct scene *s, const struct volume *v, struct traversal *g, struct voxel_dda *q, mv m, fv target)
+{
+	EACH(a, 3)
+		SET(m, q->cell[a], fv_trunc(fv_min(fv_max(q->at[a], FV((float)BRICK)), FV((float)(BRICK + v->voxels[a] - 1)))));
+	SET(m, q->t, FV(0.f));
+	SET(m, q->span, FV(0.f));
+	SET(m, q->target, target);
+	EACH_WAVE(j)
+		SET(m, q->depth[j], FV(0.f));
+	SET_TRUTH(m, q->reached, NO_LANE);
+	SET_TRUTH(m, g->going, lt(FV(0.f), q->t1));
+}
 
 FN void voxels_begin(const struct scene *s, const struct volume *v, const struct tables *t, struct traversal *g, struct voxel_dda *q, mv m,
                      struct ray r, fv t_end, mv flight, struct waves w, const struct random *random)
@@ -57,18 +73,64 @@ FN void voxels_begin(const struct scene *s, const struct volume *v, const struct
 		SET(m, q->d[a], d[a] * v->voxels_per_m[a]);
 		SET(m, q->inverse[a], inverse[a] * v->voxel[a]);
 		SET(m, q->up[a], SEL(lt(FV(0.f), inverse[a]), FV(1.f), FV(0.f)));
-		SET(m, q->cell[a], fv_trunc(fv_min(fv_max(place, FV((float)BRICK)), FV((float)(BRICK + v->voxels[a] - 1)))));
 	}
 	SET(m, g->t0, t0);
-	SET(m, q->t, FV(0.f));
-	SET(m, q->span, FV(0.f));
 	SET(m, q->t1, t1);
-	SET(m, q->target, target);
-	EACH_WAVE(j)
-		SET(m, q->depth[j], FV(0.f));
+	SET(m, q->asked, FV(-1.f));
 	SET_TRUTH(m, g->flight, flight);
-	SET_TRUTH(m, q->reached, NO_LANE);
-	SET_TRUTH(m, g->going, lt(FV(0.f), t1));
+	SET_TRUTH(m, g->forced, NO_LANE);
+	voxels_start(s, v, g, q, m, target);
+}
+
+/* Flights m of the camera, which set out: they go on until it is known that they are not thin. */
+FN void voxels_measure(const struct scene *s, const struct volume *v, const struct tables *t, struct voxel_dda *q, mv m, struct waves w)
+{
+	fv least = FV(FORCED_DEPTH), thickest = FV(0.f);
+	if (!IS_COUNTED(v)) {
+		EACH_WAVE(j)
+			thickest = fv_max(thickest, of_wave(s, t->extinction, 0, m, w, j));
+		least = SEL(lt(FV(0.f), thickest), least / thickest, FV(0.f));
+	}
+	SET(m, q->asked, q->target);
+	SET(m, q->target, fv_max(q->target, least));
+}
+
+/* They have ended: forced where they were thin. Returns those that have to go again, to where they end. */
+FN mv voxels_force(const struct scene *s, const struct volume *v, const struct tables *t, struct traversal *g, struct voxel_dda *q, mv m,
+                   struct waves w, const struct random *random)
+{
+	fv whole[CARRIED], thickest = FV(0.f);
+	m &= le(FV(0.f), q->asked);
+	if (!any(m))
+		return m;
+	EACH_WAVE(j) {
+		whole[j] = IS_COUNTED(v) ? q->depth[j] : of_wave(s, t->extinction, 0, m, w, j) * q->depth[0];
+		thickest = fv_max(thickest, whole[j]);
+	}
+	mv thin = m & NOT(q->reached) & lt(FV(0.f), thickest) & lt(thickest, FV(FORCED_DEPTH));
+	fv own = hero_among(s, whole, w), target = forced_path(draw_bits(random, DRAW_FLIGHT), fv_min(own, FV(FORCED_DEPTH)));
+	if (!IS_COUNTED(v)) {
+		fv sigma = of_hero(s, t->extinction, m, w);
+		target = SEL(lt(FV(0.f), sigma), target / sigma, FV(FAR));
+	}
+	EACH_WAVE(j)
+		SET(thin, q->whole[j], whole[j]);
+	SET_TRUTH(m, g->forced, thin);
+	target = SEL(thin, target, q->asked);
+	fv passed = IS_COUNTED(v) ? own : q->depth[0];
+	mv again = thin | (m & ((q->reached & lt(q->asked, q->target)) | (NOT(q->reached) & le(q->asked, passed))));
+	SET(m, q->asked, FV(-1.f));
+	voxels_start(s, v, g, q, again, target);
+	return again;
+}
+
+/* The optical depth of all that lies before the end of forced flights m. */
+FN void voxels_depth(const struct scene *s, const struct volume *v, const struct tables *t, struct traversal *g, struct voxel_dda *q, mv m,
+                     struct waves w, fv *out)
+{
+	(void)s, (void)v, (void)t, (void)g, (void)m, (void)w;
+	EACH_WAVE(j)
+		out[j] = q->whole[j];
 }
 
 /* The cell as integers. */
@@ -229,6 +291,8 @@ FN struct collision voxels_end(const struct scene *s, const struct volume *v, co
 		fv own = of_wave(s, t->extinction, 0, m, w, j), depth = IS_COUNTED(v) ? q->depth[j] : own * q->depth[0];
 		fv rate = IS_COUNTED(v) ? of_class(s, v, t->disc_radius2, c.happened, c.class, w, j) * v->largest_inverse : own;
 		flight_pdf[j] = expneg(depth) * SEL(c.happened, rate, FV(1.f));
+		if (CARRIED > 1 && any(m & g->forced))
+			SET(g->forced, flight_pdf[j], flight_pdf[j] / one_less_exp(fv_max(q->whole[j], FV(1e-30f))));
 	}
 	return c;
 }

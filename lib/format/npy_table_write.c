@@ -23,6 +23,8 @@ void npy_table_write(FILE *f, struct tab *t, int n, const int *index)
 			case TAB_F64: fwrite(&v, 8, 1, rows); break;
 			}
 		}
+	if (fflush(rows) || ferror(rows))    /* rewind forgets it */
+		die("temporary file", "cannot write:");
 	char *dict = xtext("{'descr': [");
 	for (int i = 0; i < n; i++) {
 		const struct tab_col *c = &cols[index[i]];
@@ -40,5 +42,5 @@ void npy_table_write(FILE *f, struct tab *t, int n, const int *index)
 	for (size_t got; (got = fread(buffer, 1, sizeof buffer, rows)) > 0;)
 		fwrite(buffer, 1, got, f);
 	if (ferror(rows) || fclose(rows))
-		die("temporary file", "cannot write or read back:");
+		die("temporary file", "cannot read back:");
 }
