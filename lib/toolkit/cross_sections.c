@@ -105,7 +105,7 @@ static double error_of(void *context, const struct size_part *part, const double
 {
 	(void)context, (void)part;
 	double g = (change[G_SCA] - change[SCA] * (total[G_SCA] / total[SCA])) / total[SCA];
-	return fmax(fmax(fabs(change[EXT] / total[EXT]), fabs(change[SCA] / total[SCA])), fabs(g));
+	return fmax(fmax(fabs(change[EXT] / total[EXT]), fabs(change[SCA] / total[SCA])), fmax(fabs(g), fabs(change[ABS] / total[EXT])));
 }
 
 /* What the classes of each group leave open: by how much the ways to rebuild the density differ. */
