@@ -24,7 +24,7 @@ static void run(struct spheres *in, const char *output, const char *command)
 	memcpy(cols + k, column_coeffs, sizeof column_coeffs);
 	k += COEFFS_COLS;
 	int ncarried = spheres_carried(in, k, cols, cols + k), n = spheres_batch(in, w), failed = 0;
-	struct tab_out *out = tab_create(output, spheres_history(in), command, k + ncarried, cols);
+	struct tab_out *out = tab_create(output, spheres_history(in), command, spheres_law(in), k + ncarried, cols);
 	for (; n; n = spheres_batch(in, w)) {
 #pragma omp parallel for schedule(dynamic) reduction(|:failed) if (n > 1)
 		for (int i = 0; i < n; i++)

@@ -43,7 +43,7 @@ int main(int argc, char **argv)
 	struct tab *t = tab_open(psd);
 	struct placement *p = placement_new(&request, t, density);
 	const struct tab_col cols[] = { column_position[0], column_position[1], column_position[2], column_radius, column_class };
-	struct tab_out *out = tab_create(output, tab_history(t), args.history, 5, cols);
+	struct tab_out *out = tab_create(output, tab_history(t), args.history, NULL, 5, cols);
 	tab_close(t);
 	for (struct placed q; placement_next(p, &q);)
 		tab_put(out, (double[]){ q.at[0], q.at[1], q.at[2], q.radius, (double)q.class });

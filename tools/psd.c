@@ -2,37 +2,34 @@
 #include "base/die.h"
 #include "base/opt.h"
 #include "format/columns.h"
-#include "optics/sizes/psd.h"
+#include "optics/sizes/psd_text.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The distributions and the options that state them: in a and b of struct psd, or nowhere. */
-static const struct {
-	const char *word;
-	enum psd_kind kind;
-	const char *a, *b;
-	int limits;              /* 0 takes no --min and --max, 1 may have them, 2 needs them */
-} kinds[] = {
-	{ "mono", PSD_MONO, "--radius", NULL, 0 },
-	{ "lognormal", PSD_LOGNORMAL, "--median", "--gsd", 1 },
-	{ "gamma", PSD_GAMMA, "--effective-radius", "--effective-variance", 1 },
-	{ "normal", PSD_NORMAL, "--mean", "--stddev", 1 },
-	{ "uniform", PSD_UNIFORM, NULL, NULL, 2 },
-	{ "power", PSD_POWER, "--exponent", NULL, 2 },
-};
+/* Whether an option states a parameter of that name. */
+static int states(const struct opt *o, const char *name)
+{
+	const char *c = o->name + 2;
+	if (!name)
+		return 0;
+	for (; *c && *name && (*c == '-' ? '_' : *c) == *name; c++)
+		name++;
+	return !*c && !*name;
+}
 
 /* The value of a shape option: needed by this kind, or not to be given. */
-static void shape(const struct opt *o, const char *word, const char *a, const char *b, struct psd *p)
+static void shape(const struct opt *o, struct psd *p)
 {
+	const struct psd_words *w = &psd_words[p->kind];
 	double v = *(const double *)o->dst;
-	double *place = a && !strcmp(o->name, a) ? &p->a : b && !strcmp(o->name, b) ? &p->b : NULL;
+	double *place = states(o, w->a) ? &p->a : states(o, w->b) ? &p->b : NULL;
 	if (place && isnan(v))
-		die(o->name, "%s needs it", word);
+		die(o->name, "%s needs it", w->kind);
 	if (!place && !isnan(v))
-		die(o->name, "does not belong to %s", word);
+		die(o->name, "does not belong to %s", w->kind);
 	if (place)
 		*place = v;
 }
@@ -62,20 +59,20 @@ int main(int argc, char **argv)
 		"Write a particle size distribution as a table of classes.", opts, 1 };
 	const size_t nshapes = 8;        /* the options that stand first */
 	struct opt_line args = opt_parse(&tool, argc, argv);
-	size_t k = 0;
+	int k = 0;
 	if (args.n != 1)
 		die(args.n ? args.operand[1] : NULL, args.n ? "one distribution at a time" : "name a distribution: mono, lognormal, gamma, normal, uniform or power");
 	const char *word = args.operand[0];
-	while (k < sizeof kinds / sizeof *kinds && strcmp(kinds[k].word, word))
+	while (k < PSD_KINDS && strcmp(psd_words[k].kind, word))
 		k++;
-	if (k == sizeof kinds / sizeof *kinds)
+	if (k == PSD_KINDS)
 		die(word, "is no distribution (mono, lognormal, gamma, normal, uniform, power)");
-	p.kind = kinds[k].kind;
+	p.kind = (enum psd_kind)k;
 	for (size_t i = 0; i < nshapes; i++)
-		shape(&opts[i], word, kinds[k].a, kinds[k].b, &p);
-	if (!kinds[k].limits && !(isnan(p.min) && isnan(p.max)))
+		shape(&opts[i], &p);
+	if (psd_words[k].limits == PSD_WHOLE && !(isnan(p.min) && isnan(p.max)))
 		die(isnan(p.min) ? "--max" : "--min", "does not belong to %s", word);
-	if (kinds[k].limits == 2 && (isnan(p.min) || isnan(p.max)))
+	if (psd_words[k].limits == PSD_IS_CUT && (isnan(p.min) || isnan(p.max)))
 		die(isnan(p.min) ? "--min" : "--max", "%s needs it", word);
 
 	int n = p.kind == PSD_MONO ? 1 : (int)classes;
@@ -84,7 +81,8 @@ int main(int argc, char **argv)
 	if (bad)
 		die(word, "%s", bad);
 	const struct tab_col cols[] = { column_radius, column_weight, column_radius_lo, column_radius_hi };
-	struct tab_out *t = tab_create(output, "", args.history, 4, cols);
+	char law[PSD_TEXT];
+	struct tab_out *t = tab_create(output, "", args.history, psd_print(&p, law), 4, cols);
 	for (int i = 0; i < n; i++)
 		tab_put(t, (double[]){ c[i].radius, c[i].weight, c[i].lo, c[i].hi });
 	tab_finish(t);

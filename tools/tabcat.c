@@ -49,7 +49,10 @@ int main(int argc, char **argv)
 		history = joined;
 	}
 	int ncols = tab_ncols(in->t);
-	struct tab_out *out = tab_create(output, history, args.history, ncols, cols);
+	const char *law = tab_law(in->t);    /* that of all, or none */
+	for (int k = 1; k < n; k++)
+		law = law && tab_law(in[k].t) && !strcmp(law, tab_law(in[k].t)) ? law : NULL;
+	struct tab_out *out = tab_create(output, history, args.history, law, ncols, cols);
 	for (int k = 0; k < n; k++) {
 		while (tab_next(in[k].t, row)) {
 			for (int i = 0; i < ncols; i++)

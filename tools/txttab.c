@@ -20,7 +20,7 @@ int main(int argc, char **argv)
 	struct tab_import *in = tab_import_open(args.n ? args.operand[0] : NULL, units);
 	int n;
 	const struct tab_col *cols = tab_import_columns(in, &n);
-	struct tab_out *out = tab_create(output, "", args.history, n, cols);
+	struct tab_out *out = tab_create(output, "", args.history, tab_import_law(in), n, cols);
 	double row[TAB_COLS];
 	while (tab_import_next(in, row))
 		tab_put(out, row);

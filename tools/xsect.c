@@ -1,21 +1,23 @@
 /* xsect - cross sections and asymmetry parameter of spheres. */
 #include "base/die.h"
 #include "format/columns.h"
-#include "optics/select/method_selection.h"
-#include "toolkit/spheres.h"
+#include "toolkit/cross_sections.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-#define TOLERANCE 1e-6
+#define TOLERANCE 1e-6      /* of methods */
+#define TOLERANCE_MEAN 5e-5 /* of means over sizes */
+#define TOLERANCE_ROUGH 1e-3    /* of an approximation, which is off by more */
 #define DARK 1         /* beta above which light is lost within a radius: extinction seen from afar grows as e^beta (mie_host.h) */
 #define FAILS 1    /* estimated error from which on a method does not hold */
 
-struct answer {
-	struct efficiencies q;
-	double error;
-	enum method method;
+struct request {
+	int average, at_radius;
+	double tolerance;          /* of means */
+	const char *output, *command;
 };
 
 /* The estimate that is worst of what a method did in this run. */
@@ -31,50 +33,16 @@ struct dark {
 	double ext;
 };
 
-/* n sizes. Those whose coefficients were read, and those in a host that absorbs, are for Lorenz-Mie theory, one by one. */
-static void answers(struct method_selection *selection, int n, struct waves *w, struct answer *a)
-{
-	static struct sphere sphere[SPHERES_BATCH];
-	static double error[SPHERES_BATCH];
-	static struct efficiencies q[SPHERES_BATCH];
-	static enum method used[SPHERES_BATCH];
-	static int of[SPHERES_BATCH];
-	int many = 0, failed = 0;
-	for (int i = 0; i < n; i++) {
-		if (w[i].a || w[i].size.x_im > 0)
-			continue;
-		sphere[many] = (struct sphere){ .x = w[i].size.x, .m = w[i].size.m };
-		of[many++] = i;
-	}
-	if (many && method_selection_many(selection, many, sphere, q, error, used))
-		die(NULL, "out of memory");
-	for (int k = 0; k < many; k++)
-		a[of[k]] = (struct answer){ q[k], error[k], used[k] };
-#pragma omp parallel for schedule(dynamic) reduction(|:failed) if (n - many > 1)
-	for (int i = 0; i < (many < n ? n : 0); i++) {
-		if (!w[i].a && w[i].size.x_im == 0)
-			continue;
-		if (waves_solve(&w[i]))
-			failed = 1;
-		else
-			a[i].q = waves_efficiencies(&w[i], &a[i].error);
-		a[i].method = METHOD_MIE;
-		waves_drop(&w[i]);
-	}
-	if (failed)
-		die(NULL, "out of memory");
-}
-
 static int columns(int by_x, struct tab_col *cols)
 {
-	const struct tab_col by_size[] = { column_c_ext, column_c_sca, column_c_abs, column_g, column_method, column_error };
+	const struct tab_col by_size[] = { column_c_ext, column_c_sca, column_c_abs, column_g, column_c_back, column_method, column_error };
 	const struct tab_col by_parameter[] = { column_q_ext, column_q_sca, column_q_abs, column_g, column_q_back, column_method,
 		column_error };
-	memcpy(cols, by_x ? by_parameter : by_size, by_x ? sizeof by_parameter : sizeof by_size);
-	return by_x ? 7 : 6;
+	memcpy(cols, by_x ? by_parameter : by_size, sizeof by_size);
+	return 7;
 }
 
-static int values(int by_x, const struct size *size, const struct answer *a, double *row)
+static int values(int by_x, const struct size *size, const struct cross_section *a, double *row)
 {
 	double area = by_x ? 1 : M_PI * size->radius * size->radius;
 	int n = 0;
@@ -82,46 +50,138 @@ static int values(int by_x, const struct size *size, const struct answer *a, dou
 	row[n++] = a->q.sca * area;
 	row[n++] = a->q.abs * area;
 	row[n++] = a->q.g;
-	if (by_x)
-		row[n++] = a->q.back;
+	row[n++] = by_x ? a->q.back : a->q.back * area / (4 * M_PI);
 	row[n++] = a->method;
 	row[n++] = a->error;
 	return n;
 }
 
-static void run(struct spheres *in, struct method_selection *selection, const char *output, const char *command, struct worst worst[],
-                struct dark *dark)
+static int mean_values(const struct mean_section *m, double *row)
+{
+	const double v[] = { m->ext, m->sca, m->abs, m->g, m->back, m->method, m->error };
+	memcpy(row, v, sizeof v);
+	return 7;
+}
+
+/* What is told of a run. */
+struct told {
+	struct worst worst[METHODS];
+	struct dark dark;
+	long sizes;                /* that means took */
+	double error, open;        /* of means: the largest */
+};
+
+static void tell_row(struct told *t, const struct size *size, enum method method, double error, double ext, double c_ext)
+{
+	struct worst *most = &t->worst[method];
+	if (!most->n++ || !(error <= most->error)) {
+		most->size = *size;
+		most->error = error;
+	}
+	if (size->x_im > t->dark.size.x_im && (2 * size->x_im > DARK || !(ext > 0)))
+		t->dark = (struct dark){ *size, c_ext };
+}
+
+static void tell_mean(struct told *t, const struct mean_section *m, double error)
+{
+	t->sizes += m->sizes;
+	t->error = fmax(t->error, error);
+	t->open = fmax(t->open, m->open);
+}
+
+/* Rows as they are read, each its own size. */
+static void each_size(struct spheres *in, struct method_selection *selection, const struct request *request, int ncols,
+                      const struct tab_col *cols, struct told *told)
 {
 	static struct waves w[SPHERES_BATCH];
-	static struct answer a[SPHERES_BATCH];
-	struct tab_col cols[TAB_COLS];
+	static struct cross_section a[SPHERES_BATCH];
 	double row[TAB_COLS];
-	int by_x = spheres_by_x(in), k = spheres_key_columns(in, cols);
-	k += columns(by_x, cols + k);
-	int ncarried = spheres_carried(in, k, cols, cols + k), n = spheres_batch(in, w);
-	struct tab_out *out = tab_create(output, spheres_history(in), command, k + ncarried, cols);
+	int by_x = spheres_by_x(in), n = spheres_batch(in, w);    /* before the table begins: what is wrong with the first row leaves none */
+	struct tab_out *out = tab_create(request->output, spheres_history(in), request->command, spheres_law(in), ncols, cols);
 	for (; n; n = spheres_batch(in, w)) {
-		answers(selection, n, w, a);
+		cross_sections_of(selection, n, w, a);
 		for (int i = 0; i < n; i++) {
-			struct worst *most = &worst[a[i].method];
 			int key = spheres_key(in, &w[i].size, row), j = key;
 			j += values(by_x, &w[i].size, &a[i], row + j);
 			spheres_carry(in, &w[i], row + j);
 			tab_put(out, row);
-			if (!most->n++ || !(a[i].error <= most->error)) {
-				most->size = w[i].size;
-				most->error = a[i].error;
-			}
-			if (w[i].size.x_im > dark->size.x_im && (2 * w[i].size.x_im > DARK || !(a[i].q.ext > 0)))
-				*dark = (struct dark){ w[i].size, row[key] };
+			tell_row(told, &w[i].size, a[i].method, a[i].error, a[i].q.ext, row[key]);
 			waves_free(&w[i]);
 		}
 	}
 	tab_finish(out);
 }
 
+/* Classes: the mean of each. */
+static void each_class(const struct class_table *t, struct method_selection *selection, double tolerance, struct tab_out *out,
+                       struct told *told)
+{
+	double row[TAB_COLS];
+	struct mean_section *mean = xalloc((size_t)t->classes * t->waves, sizeof *mean);
+	for (size_t w = 0; w < t->waves && t->classes; w++) {
+		double error = cross_sections_classes(t, w, selection, tolerance, mean + w * (size_t)t->classes);
+		tell_mean(told, &mean[w * (size_t)t->classes], error);
+		for (int i = 1; i < t->classes; i++)
+			told->open = fmax(told->open, mean[w * (size_t)t->classes + (size_t)i].open);
+	}
+	for (size_t i = 0; i < t->n; i++) {
+		struct class_row *r = &t->row[i];
+		int key = spheres_key(t->in, &r->w.size, row), j = key;
+		struct cross_section one;
+		if (r->class >= 0) {
+			const struct mean_section *m = &mean[r->wave * (size_t)t->classes + (size_t)r->class];
+			j += mean_values(m, row + j);
+			tell_row(told, &r->w.size, m->method, m->error, m->ext, m->ext);
+		} else {
+			cross_sections_of(selection, 1, &r->w, &one);
+			j += values(0, &r->w.size, &one, row + j);
+			tell_row(told, &r->w.size, one.method, one.error, one.q.ext, row[key]);
+		}
+		spheres_carry(t->in, &r->w, row + j);
+		tab_put(out, row);
+	}
+	free(mean);
+}
+
+static void average(const struct class_table *t, struct method_selection *selection, double tolerance, const char *output,
+                    const char *command, struct told *told)
+{
+	const struct tab_col cols[] = { column_wavelength, column_c_ext, column_c_sca, column_c_abs, column_g, column_c_back,
+		column_radius_eff, column_volume, column_error };
+	struct tab_out *out = tab_create(output, spheres_history(t->in), command, spheres_law(t->in), sizeof cols / sizeof *cols, cols);
+	for (size_t w = 0; w < t->waves; w++) {
+		struct mean_section m;
+		tell_mean(told, &m, cross_sections_average(t, w, selection, tolerance, &m));
+		tab_put(out, (double[]){ t->wave[w].wavelength, m.ext, m.sca, m.abs, m.g, m.back, m.volume / m.area * 0.75, m.volume, m.error });
+	}
+	tab_finish(out);
+}
+
+static void run(struct spheres *in, struct method_selection *selection, const struct request *request, struct told *told)
+{
+	struct tab_col cols[TAB_COLS];
+	int k = spheres_key_columns(in, cols);
+	k += columns(spheres_by_x(in), cols + k);
+	int ncarried = spheres_carried(in, k, cols, cols + k);
+	if (!request->average && (request->at_radius || !class_table_in(in))) {
+		each_size(in, selection, request, k + ncarried, cols, told);
+		return;
+	}
+	if (request->average)
+		class_table_need(in);
+	struct class_table *t = class_table_read(in, ncarried, cols + k, request->at_radius);
+	if (request->average) {
+		average(t, selection, request->tolerance, request->output, request->command, told);
+	} else {
+		struct tab_out *out = tab_create(request->output, spheres_history(in), request->command, spheres_law(in), k + ncarried, cols);
+		each_class(t, selection, request->tolerance, out, told);
+		tab_finish(out);
+	}
+	class_table_free(t);
+}
+
 /* The worst row of each method: a warning where it does not hold, or what --verbose says. */
-static void tell(enum method method, const struct worst *w, int verbose)
+static void tell_method(enum method method, const struct worst *w, int verbose)
 {
 	char at[SIZE_NAME];
 	size_name(&w->size, at);
@@ -131,21 +191,34 @@ static void tell(enum method method, const struct worst *w, int verbose)
 		warn("verbose", "method %s for %lld sizes; estimated error at most %.2g, at %s", method_table[method].name, w->n, w->error, at);
 }
 
+/* Where means are worse than was asked for: one line. */
+static void tell_means(const char *path, const struct told *t, double tolerance, int verbose)
+{
+	if (t->open > tolerance)
+		warn(path, "means over sizes are uncertain by %.2g, more than %.2g: the classes do not say how many particles of which size are in them",
+		     t->open, tolerance);
+	else if (t->error > tolerance)
+		warn(path, "means over sizes have an estimated error of %.2g, more than %.2g, after %ld sizes", t->error, tolerance, t->sizes);
+	if (verbose && t->sizes)
+		warn("verbose", "means over %ld sizes in all; estimated error at most %.2g", t->sizes, t->error + t->open);
+}
+
 int main(int argc, char **argv)
 {
 	static struct sizes_options sizes = SIZES_INIT;    /* static: the lists in it live as long as the process */
-	static struct worst worst[METHODS];
-	struct dark dark = { .size = { .x_im = 0 } };
+	static struct told told;
+	struct request request = { 0 };
 	int method = METHOD_AUTO, verbose = 0;
 	double tolerance = -1;
-	const char *output = NULL;
 	const struct opt opts[] = {
 		SIZES_OPTIONS(sizes),
 		{ "--method", OPT_CHOICE, &method, 0, 0, "auto|mie|rayleigh|goa|cam|evans-fournier",
 		  "the cheapest within --tolerance, Lorenz-Mie theory, or an approximation", 0 },
-		{ "--tolerance", OPT_REAL, &tolerance, 1e-14, 1, "T", "largest error that auto may choose a cheaper method for", 0 },
+		{ "--tolerance", OPT_REAL, &tolerance, 1e-14, 1, "T", "largest error allowed to auto's methods, and to means over sizes", 0 },
+		{ "--average", OPT_FLAG, &request.average, 0, 0, NULL, "one row a wavelength: the mean over the sizes, by weight", 0 },
+		{ "--at-radius", OPT_FLAG, &request.at_radius, 0, 0, NULL, "a class with limits is its radius alone", 0 },
 		{ "--verbose", OPT_FLAG, &verbose, 0, 0, NULL, "say which methods were used and their estimated errors", 1 },
-		OPT_OUTPUT(&output),
+		OPT_OUTPUT(&request.output),
 		OPT_END
 	};
 	const struct opt_tool tool = { "[OPTION].. [SIZES | COEFFICIENTS]",
@@ -153,23 +226,30 @@ int main(int argc, char **argv)
 	struct opt_line args = opt_parse(&tool, argc, argv);
 	if (args.n > 1)
 		die(args.operand[1], "one table at most");
-	if (tolerance >= 0 && method != METHOD_AUTO)
-		die("--tolerance", "is for --method auto");
 	sizes.clear_host = method != METHOD_AUTO && method != METHOD_MIE;
 	struct spheres *in = spheres_open(&sizes, args.n ? args.operand[0] : NULL);
 	if (spheres_coeffs(in) && method != METHOD_AUTO && method != METHOD_MIE)
 		die("--method", "%s has no use for the coefficients in %s", method_table[method].name, spheres_coeffs(in));
-	struct method_selection *selection = method_selection_new(method, tolerance < 0 ? TOLERANCE : tolerance);
+	int means = request.average || (!request.at_radius && class_table_in(in));
+	if (tolerance >= 0 && method != METHOD_AUTO && !means)
+		die("--tolerance", "is for --method auto, and means over sizes");
+	/* of a mean's error, half is the methods' and half the sizes' */
+	struct method_selection *selection = method_selection_new(method, tolerance < 0 ? TOLERANCE : means ? tolerance / 2 : tolerance);
+	int rough = method != METHOD_AUTO && method != METHOD_MIE;
+	request.tolerance = tolerance >= 0 ? tolerance / 2 : rough ? TOLERANCE_ROUGH : TOLERANCE_MEAN;
+	request.command = args.history;
 	if (!selection)
 		die(NULL, "out of memory");
-	run(in, selection, output, args.history, worst, &dark);
+	run(in, selection, &request, &told);
 	for (int k = 0; k < METHODS; k++)
-		if (worst[k].n)
-			tell(k, &worst[k], verbose);
-	if (dark.size.x_im > 0) {
+		if (told.worst[k].n)
+			tell_method(k, &told.worst[k], verbose);
+	if (means)
+		tell_means(tab_path(spheres_table(in)), &told, request.tolerance, verbose);
+	if (told.dark.size.x_im > 0) {
 		char at[SIZE_NAME];
 		warn("host", "%s: far-field extinction means little there: %.4g at beta = %.3g (worst of this run)",
-		     size_name(&dark.size, at), dark.ext, 2 * dark.size.x_im);
+		     size_name(&told.dark.size, at), told.dark.ext, 2 * told.dark.size.x_im);
 	}
 	method_selection_free(selection);
 	spheres_close(in);

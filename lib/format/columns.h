@@ -34,6 +34,9 @@ static const struct tab_col
 	column_q_sca = { "q_sca", TAB_F64, "1" },
 	column_q_abs = { "q_abs", TAB_F64, "1" },
 	column_q_back = { "q_back", TAB_F64, "1" },
+	column_c_back = { "c_back", TAB_F64, "um^2/sr" },
+	column_radius_eff = { "radius_eff", TAB_F64, "um" },
+	column_volume = { "volume", TAB_F64, "um^3" },
 	column_g = { "g", TAB_F64, "1" },
 	column_method = { "method", TAB_I32, "1" },
 	column_error = { "error", TAB_F64, "1" },
@@ -52,6 +55,6 @@ static const struct tab_col
 	&column_position[0], &column_position[1], &column_position[2], &column_class, &column_coeffs[0], &column_coeffs[1], \
 	&column_coeffs[2], &column_coeffs[3], &column_coeffs[4], &column_coeffs[5], &column_coeffs[6], &column_c_ext, \
 	&column_c_sca, &column_c_abs, &column_q_ext, &column_q_sca, &column_q_abs, &column_q_back, &column_g, &column_method, \
-	&column_error, &column_theta, &column_s1_re, &column_s1_im, &column_s2_re, &column_s2_im, &column_p
+	&column_error, &column_c_back, &column_radius_eff, &column_volume, &column_theta, &column_s1_re, &column_s1_im, &column_s2_re, &column_s2_im, &column_p
 
 #endif

@@ -33,6 +33,14 @@ const char *tab_col_valid(const struct tab_col *col)
 	return NULL;
 }
 
+const char *tab_law_valid(const char *law)
+{
+	for (const char *c = law; *c; c++)
+		if (*c < ' ' || *c > '~')
+			return "a law is printable text";
+	return *law ? NULL : "a law is not empty";
+}
+
 char *tab_join(const char *first, ...)
 {
 	char *kept = xtext("\n");

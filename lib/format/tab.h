@@ -29,6 +29,10 @@ const char *tab_path(const struct tab *t);
 /* tab_history - the cmd lines, oldest first, each ending in a newline. */
 const char *tab_history(const struct tab *t);
 
+/* tab_law - the line that names the size distribution of which the rows are classes, as psd_print writes it (optics/sizes/psd_text.h);
+ * NULL if there is none. */
+const char *tab_law(const struct tab *t);
+
 int tab_ncols(const struct tab *t);
 const struct tab_col *tab_cols(const struct tab *t);
 
@@ -54,8 +58,10 @@ struct tab_out;
 
 /* tab_create - begin a table (path NULL or "-": standard output).
  * Given: history  earlier cmd lines, each ending in a newline (several tables' may be joined), or ""
- *        command  this program's own line */
-struct tab_out *tab_create(const char *path, const char *history, const char *command, int ncols, const struct tab_col *cols);
+ *        command  this program's own line
+ *        law      that of the rows handed through, or NULL */
+struct tab_out *tab_create(const char *path, const char *history, const char *command, const char *law, int ncols,
+                           const struct tab_col *cols);
 
 /* tab_put - append a row; dies when a value does not fit an i32 or f32 column. */
 void tab_put(struct tab_out *t, const double *row);
@@ -67,6 +73,9 @@ void tab_finish(struct tab_out *t);
 const char *tab_type_name(enum tab_type type);
 int tab_type_parse(const char *name);
 static inline size_t tab_type_size(enum tab_type type) { return type == TAB_F64 ? 8 : 4; }
+
+/* tab_law_valid - NULL, or what is wrong with a line for a law: it is printable text, not empty, without tabs. */
+const char *tab_law_valid(const char *law);
 
 /* tab_col_valid - NULL, or what is wrong with a column's name or unit. */
 const char *tab_col_valid(const struct tab_col *col);

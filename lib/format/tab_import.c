@@ -116,6 +116,8 @@ const struct tab_col *tab_import_columns(const struct tab_import *t, int *n)
 	return t->cols;
 }
 
+const char *tab_import_law(const struct tab_import *t) { return t->text ? tab_text_law(t->text) : NULL; }
+
 int tab_import_next(struct tab_import *t, double *row)
 {
 	return t->text ? tab_text_next(t->text, row) : t->csv ? csv_next(t->csv, row) : npy_table_next(t->npy, row);

@@ -14,6 +14,9 @@ struct tab_import *tab_import_open(const char *path, const char *units);
 
 const struct tab_col *tab_import_columns(const struct tab_import *t, int *n);
 
+/* tab_import_law - the law of the text of tabtxt, or NULL. */
+const char *tab_import_law(const struct tab_import *t);
+
 /* tab_import_next - the next row; 0 at the end. */
 int tab_import_next(struct tab_import *t, double *row);
 

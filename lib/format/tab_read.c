@@ -16,7 +16,7 @@
 
 struct tab {
 	int fd;
-	char *path, *history;
+	char *path, *history, *law;
 	int ncols;
 	struct tab_col cols[TAB_COLS];
 	size_t row_size;
@@ -140,6 +140,8 @@ static void header(struct tab *t)
 		}
 		else if (!strncmp(line, "col\t", 4))
 			column(t, line + 4);
+		else if (!strncmp(line, "law\t", 4) && !t->law && !tab_law_valid(line + 4))
+			t->law = xtext("%s", line + 4);
 		else
 			damaged(t, "bad header line");
 	}
@@ -190,6 +192,7 @@ struct tab *tab_open(const char *path)
 
 const char *tab_path(const struct tab *t) { return t->path; }
 const char *tab_history(const struct tab *t) { return t->history; }
+const char *tab_law(const struct tab *t) { return t->law; }
 int tab_ncols(const struct tab *t) { return t->ncols; }
 const struct tab_col *tab_cols(const struct tab *t) { return t->cols; }
 uint64_t tab_row(const struct tab *t) { return t->rows; }
@@ -274,6 +277,7 @@ void tab_close(struct tab *t)
 		close(t->fd);
 	free(t->window);
 	free(t->history);
+	free(t->law);
 	free(t->path);
 	free(t);
 }

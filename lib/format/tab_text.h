@@ -1,5 +1,5 @@
-/* tab_text - tables as text: "# name:type:unit" for each column in the first line, then the rows, all with tabs between; or
- * CSV, which has the names alone. Everything dies at the first error, with its line. */
+/* tab_text - tables as text: "# name:type:unit" for each column in the first line, there too "law=.." where the table has one, then
+ * the rows, all with tabs between; or CSV, which has the names alone. Everything dies at the first error, with its line. */
 #ifndef FORMAT_TAB_TEXT_H
 #define FORMAT_TAB_TEXT_H
 
@@ -17,6 +17,9 @@ struct tab_text;
  * line names, n. */
 struct tab_text *tab_text_open(FILE *f, const char *path);
 const struct tab_col *tab_text_columns(const struct tab_text *t, int *n);
+
+/* tab_text_law - the law there, or NULL. */
+const char *tab_text_law(const struct tab_text *t);
 
 /* tab_text_next - the next row; 0 at the end. */
 int tab_text_next(struct tab_text *t, double *row);

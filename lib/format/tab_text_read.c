@@ -11,16 +11,25 @@ struct tab_text {
 	struct text_lines in;
 	int n;
 	struct tab_col cols[TAB_COLS];
+	char *law;
 };
 
-/* "# name:type:unit<TAB>name:type:unit..." */
-static int columns(const char *path, char *line, struct tab_col *cols)
+/* "# name:type:unit<TAB>name:type:unit...<TAB>law=..", the law if there is one. */
+static int columns(const char *path, char *line, struct tab_col *cols, char **law)
 {
 	int n = 0;
 	char *save = NULL;
 	if (strncmp(line, "# ", 2))
 		die(path, "line 1: must name the columns, like '# radius:f64:um<TAB>weight:f64:1'");
 	for (char *word = strtok_r(line + 2, "\t", &save); word; word = strtok_r(NULL, "\t", &save), n++) {
+		if (!strncmp(word, "law=", 4)) {
+			const char *bad = *law ? "a law stands twice" : tab_law_valid(word + 4);
+			if (bad)
+				die(path, "line 1: %s", bad);
+			*law = xtext("%s", word + 4);
+			n--;
+			continue;
+		}
 		char *type = strchr(word, ':'), *unit = type ? strchr(type + 1, ':') : NULL;
 		if (n == TAB_COLS)
 			die(path, "line 1: more than %d columns", TAB_COLS);
@@ -59,7 +68,7 @@ struct tab_text *tab_text_open(FILE *f, const char *path)
 	struct tab_text *t = xalloc(1, sizeof *t);
 	t->in = (struct text_lines){ .f = f, .path = path };
 	next_line(&t->in);
-	t->n = columns(path, t->in.line, t->cols);
+	t->n = columns(path, t->in.line, t->cols, &t->law);
 	return t;
 }
 
@@ -68,6 +77,8 @@ const struct tab_col *tab_text_columns(const struct tab_text *t, int *n)
 	*n = t->n;
 	return t->cols;
 }
+
+const char *tab_text_law(const struct tab_text *t) { return t->law; }
 
 int tab_text_next(struct tab_text *t, double *row)
 {
@@ -88,6 +99,7 @@ int tab_text_next(struct tab_text *t, double *row)
 
 void tab_text_close(struct tab_text *t)
 {
+	free(t->law);
 	free(t->in.line);
 	free(t);
 }

@@ -37,6 +37,8 @@ void tab_text_write(FILE *f, struct tab *t, int n, const int *index, int csv)
 		else
 			fprintf(f, "%s%s:%s:%s", i ? "\t" : "# ", c->name, tab_type_name(c->type), c->unit);
 	}
+	if (!csv && tab_law(t))
+		fprintf(f, "\tlaw=%s", tab_law(t));
 	putc('\n', f);
 	while (tab_next(t, row))
 		for (int i = 0; i < n; i++) {

@@ -54,7 +54,8 @@ static void flush_block(struct tab_out *t)
 	t->used = 0;
 }
 
-struct tab_out *tab_create(const char *path, const char *history, const char *command, int ncols, const struct tab_col *cols)
+struct tab_out *tab_create(const char *path, const char *history, const char *command, const char *law, int ncols,
+                           const struct tab_col *cols)
 {
 	struct tab_out *t = xalloc(1, sizeof *t);
 	if (ncols < 1 || ncols > TAB_COLS)
@@ -74,6 +75,11 @@ struct tab_out *tab_create(const char *path, const char *history, const char *co
 		free(text);
 	}
 	free(lines);
+	if (law) {
+		char *text = xtext("law\t%s\n", law);
+		emit(t, text, strlen(text));
+		free(text);
+	}
 	for (int i = 0; i < ncols; i++) {
 		const char *bad = tab_col_valid(&cols[i]);
 		if (bad)

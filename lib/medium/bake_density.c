@@ -5,6 +5,7 @@
 #include "format/limits.h"
 #include "medium/classes.h"
 #include "medium/density.h"
+#include "toolkit/law.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -57,9 +58,11 @@ char *bake_psd(const char *path, double concentration, struct medium *m, int *ex
 {
 	struct tab *t = tab_open(path);
 	int radius = tab_need(t, &column_radius), weight = tab_need(t, &column_weight);
+	struct law_check *law = law_check_begin(t);
 	double row[TAB_COLS], sum = 0;
 	*exact = 1;
 	while (tab_next(t, row)) {
+		law_check_row(law, row);
 		unsigned long long number = (unsigned long long)tab_row(t);
 		int class = classes_find(m, t, row[radius]);
 		if (!(row[weight] >= 0) || !isfinite(row[weight]))
@@ -68,6 +71,7 @@ char *bake_psd(const char *path, double concentration, struct medium *m, int *ex
 		m->count[class] += row[weight];
 		sum += row[weight];
 	}
+	law_check_end(law);
 	if (!(fabs(sum - 1) <= 1e-6))
 		die(tab_path(t), "the weights sum to %g, not to 1", sum);
 	for (int k = 0; k < m->n_classes; k++)

@@ -5,6 +5,7 @@
 #include "format/columns.h"
 #include "format/limits.h"
 #include "optics/phase/phase.h"
+#include "toolkit/law.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -51,10 +52,12 @@ char *classes_cross_sections(const char *path, struct medium *m)
 	struct tab *t = tab_open(path);
 	int wavelength = tab_need(t, &column_wavelength), radius = tab_need(t, &column_radius);
 	int c_ext = tab_need(t, &column_c_ext), c_sca = tab_need(t, &column_c_sca);
+	struct law_check *law = law_check_begin(t);
 	double row[TAB_COLS], (*rows)[4] = NULL;
 	size_t n = 0;
 	while (tab_next(t, row)) {
 		unsigned long long number = (unsigned long long)tab_row(t);
+		law_check_row(law, row);
 		positive(t, "wavelength", row[wavelength]);
 		positive(t, "radius", row[radius]);
 		if (!(row[c_ext] > 0) || !isfinite(row[c_ext]))
@@ -68,6 +71,7 @@ char *classes_cross_sections(const char *path, struct medium *m)
 		if (m->n_waves > MEDIUM_WAVES || m->n_classes > MEDIUM_CLASSES)
 			die(tab_path(t), "more than %d wavelengths or %d radii", MEDIUM_WAVES, MEDIUM_CLASSES);
 	}
+	law_check_end(law);
 	if (!n)
 		die(tab_path(t), "has no rows");
 	size_t all = (size_t)m->n_classes * (size_t)m->n_waves;

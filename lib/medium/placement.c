@@ -4,6 +4,7 @@
 #include "format/columns.h"
 #include "medium/density.h"
 #include "medium/rng.h"
+#include "toolkit/law.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -32,6 +33,7 @@ static struct sizes read_sizes(struct tab *t)
 {
 	struct sizes s = { 0, NULL, NULL };
 	int radius = tab_need(t, &column_radius), weight = tab_need(t, &column_weight);
+	struct law_check *law = law_check_begin(t);
 	double row[TAB_COLS], sum = 0;
 	for (size_t room = 0; tab_next(t, row); s.n++) {
 		if (s.n == room) {
@@ -43,9 +45,11 @@ static struct sizes read_sizes(struct tab *t)
 			die(tab_path(t), "row %llu: a radius is greater than 0, not %g", (unsigned long long)tab_row(t), row[radius]);
 		if (!(row[weight] >= 0 && isfinite(row[weight])))
 			die(tab_path(t), "row %llu: a weight is at least 0, not %g", (unsigned long long)tab_row(t), row[weight]);
+		law_check_row(law, row);
 		s.radius[s.n] = row[radius];
 		s.below[s.n] = sum += row[weight];
 	}
+	law_check_end(law);
 	if (!(sum > 0 && isfinite(sum)))
 		die(tab_path(t), "has no class with a weight");
 	return s;

@@ -3,179 +3,202 @@
 #include "base/die.h"
 #include "format/columns.h"
 #include "optics/phase/angle_grid.h"
-#include "toolkit/ensemble.h"
+#include "toolkit/phase_means.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_WORK 3e8      /* of size parameters together; see ensemble_average.h */
-#define FIRST_LEVEL 2      /* that is judged; before, sizes can be off by more than they differ from half as many */
-#define COARSE 16          /* how much coarser the first angles are than the finest; then a quarter of it, and so on */
-
-struct average {
-	const struct phase_options *o;
-	struct ensemble ensemble;
-	double change;             /* by the last doubling that was judged */
-	int warned;
+/* A phase function a wavelength, on angles that they share. */
+struct curves {
+	size_t n;
+	const struct phase_means **means;
+	size_t *group;
+	long angles;
+	double *theta, **value;    /* value[n][PHASE_ELEMENTS][angles] */
 };
 
-/* The means as they are now; returns the largest change, half the integral over the sphere. */
-static double settle(struct ensemble *e)
+static void evaluate(struct curves *c)
 {
-	double most = 0;
-	for (size_t m = 0; m < e->nmean; m++) {
-		struct ensemble_mean *mean = &e->mean[m];
-		double all = mean->points_weight + mean->weight;
-		if (!(all > 0 && all < INFINITY))
-			die(ensemble_path(e), all > 0 ? "the sum of weights is out of range" : "all weights are 0");
-		for (int k = 0; k < PHASE_ELEMENTS; k++) {
-			double *value = mean->value + k * e->n, sum = 0;
-			for (long i = 0; i < e->n; i++) {
-				double v = (mean->points[k * e->n + i] + mean->sum[k * e->n + i]) / all;
-				double width = (e->theta[i + 1 < e->n ? i + 1 : i] - e->theta[i ? i - 1 : 0]) / 2;
-				sum += fabs(v - value[i]) * sin(e->theta[i] * (M_PI / 180)) * width;
-				value[i] = v;
-			}
-			most = fmax(most, sum * M_PI * (M_PI / 180));
-		}
+	for (size_t i = 0; i < c->n; i++) {
+		c->value[i] = xalloc(PHASE_ELEMENTS * (size_t)c->angles, sizeof **c->value);
+		phase_means_at(c->means[i], c->group[i], c->angles, c->theta, c->value[i]);
 	}
-	return most;
 }
 
-/* The means at theta[n] by levels 0 .. least, and, where they are judged, by as many more as it takes. Returns the last. */
-static int integrate(struct average *a, int least, int judged)
+/* As few angles as serve all. */
+static void thin(struct curves *c, double tolerance)
 {
-	struct ensemble *e = &a->ensemble;
-	const size_t values = PHASE_ELEMENTS * (size_t)e->n;
-	for (size_t m = 0; m < e->nmean; m++) {
-		struct ensemble_mean *mean = &e->mean[m];
-		mean->points_weight = mean->weight = 0;
-		free(mean->value);
-		mean->value = xalloc(3 * values, sizeof *mean->value);
-		mean->points = mean->value + values;
-		mean->sum = mean->points + values;
-	}
-	ensemble_add_points(e);
-	e->work = 0;
-	for (int level = 0; e->sub; level++) {
-		for (size_t m = 0; m < e->nmean; m++) {
-			e->mean[m].weight /= 2;
-			for (size_t i = 0; i < values; i++)
-				e->mean[m].sum[i] /= 2;
-		}
-		ensemble_add_level(e, level);
-		double change = settle(e);
-		if (level < least)
-			continue;
-		if (!judged)
-			return level;
-		a->change = change;
-		if (change < a->o->tolerance / 2)
-			return level;
-		if (2 * e->work > MOST_WORK) {
-			if (!a->warned++)
-				warn(ensemble_path(e), "the mean over sizes has not settled: twice as many changed it by %.2g, not by less than %g",
-				     change, a->o->tolerance / 2);
-			return level;
-		}
-	}
-	settle(e);
-	return 0;
-}
-
-static void take_angles(struct ensemble *e, long n)
-{
-	if (n < 0 || (double)n * PHASE_ELEMENTS * (double)e->nmean > ANGLE_GRID_MOST)
-		die(NULL, "the sizes want too many angles; choose them by --angles or --theta, or allow more by --tolerance");
-	e->n = n;
-	e->theta = xgrow(e->theta, (size_t)n, sizeof *e->theta);
-}
-
-/* Leave those of the means' angles that serve them all; 0 where the angles were too few for that. */
-static int thin(struct ensemble *e, double tolerance)
-{
-	size_t curves = e->nmean * PHASE_ELEMENTS;
+	const size_t curves = c->n * PHASE_ELEMENTS;
 	double **curve = xalloc(curves, sizeof *curve);
-	long *keep = xalloc((size_t)e->n, sizeof *keep);
-	for (size_t c = 0; c < curves; c++)
-		curve[c] = e->mean[c / PHASE_ELEMENTS].value + c % PHASE_ELEMENTS * (size_t)e->n;
-	long n = angle_grid_thin(e->n, e->theta, (int)curves, curve, tolerance, keep);
+	long *keep = xalloc((size_t)c->angles, sizeof *keep);
+	for (size_t k = 0; k < curves; k++)
+		curve[k] = c->value[k / PHASE_ELEMENTS] + k % PHASE_ELEMENTS * (size_t)c->angles;
+	long n = angle_grid_thin(c->angles, c->theta, (int)curves, curve, tolerance, keep);
 	if (n < 0)
 		die(NULL, "out of memory");
-	int enough = n < e->n;
 	for (long i = 0; i < n; i++) {
-		e->theta[i] = e->theta[keep[i]];
-		for (size_t c = 0; c < curves; c++)
-			curve[c][i] = curve[c][keep[i]];
+		c->theta[i] = c->theta[keep[i]];
+		for (size_t k = 0; k < curves; k++)
+			curve[k][i] = curve[k][keep[i]];
 	}
-	for (size_t c = 0; c < curves; c++)    /* without gaps between the elements */
-		memmove(e->mean[c / PHASE_ELEMENTS].value + c % PHASE_ELEMENTS * (size_t)n, curve[c], (size_t)n * sizeof **curve);
-	e->n = n;
+	for (size_t k = 0; k < curves; k++)    /* without gaps between the elements */
+		memmove(c->value[k / PHASE_ELEMENTS] + k % PHASE_ELEMENTS * (size_t)n, curve[k], (size_t)n * sizeof **curve);
+	c->angles = n;
 	free(curve);
 	free(keep);
-	return enough;
 }
 
-/* Means at angles of their own, thinned; unless no more is wanted than the level. */
-static int own_angles(struct average *a, int level_only)
+/* Values at given angles, or at angles of their own. */
+static void settle(struct curves *c, const struct phase_options *o, long n, const double *theta)
 {
-	struct ensemble *e = &a->ensemble;
-	const double half = a->o->tolerance / 2;
 	double x = 0;
-	for (size_t i = 0; i < e->nw; i++) {
-		const struct waves *w = &e->w[i];
-		x = fmax(x, size_extent(&w->size) * (ensemble_limited(e, w) ? w->carried[e->hi_col] / w->size.radius : 1));
+	for (size_t i = 0; i < c->n; i++)
+		x = fmax(x, c->means[i]->x);
+	c->value = xalloc(c->n, sizeof *c->value);
+	c->angles = n ? n : angle_grid_fine(x, o->tolerance / 2, NULL);
+	if (c->angles < 0 || (double)c->angles * PHASE_ELEMENTS * (double)c->n > ANGLE_GRID_MOST)
+		die(NULL, "the sizes want too many angles; choose them by --angles or --theta, or allow more by --tolerance");
+	c->theta = xalloc((size_t)c->angles, sizeof *c->theta);
+	if (n)
+		memcpy(c->theta, theta, (size_t)n * sizeof *theta);
+	else
+		angle_grid_fine(x, o->tolerance / 2, c->theta);
+	evaluate(c);
+	if (!n)
+		thin(c, o->tolerance / 2);
+}
+
+static void forget(struct curves *c)
+{
+	for (size_t i = 0; i < c->n; i++)
+		free(c->value[i]);
+	free(c->value);
+	free(c->theta);
+}
+
+/* What is left of the tolerance by the worst wavelength. */
+static void tell(const struct phase_options *o, const struct class_table *t, size_t n, struct phase_means *const *m)
+{
+	double error = 0, open = 0;
+	long sizes = 0;
+	for (size_t i = 0; i < n; i++) {
+		error = fmax(error, m[i]->error);
+		open = fmax(open, m[i]->open);
+		sizes += m[i]->sizes;
 	}
-	if (!e->model->any_angles) {
-		take_angles(e, angle_grid_count(x));
-		angle_grid(x, e->theta);
-		return integrate(a, FIRST_LEVEL, 1);
+	if (open > o->tolerance / 2)
+		warn(class_table_path(t), "means over sizes are uncertain by %.2g, more than %.2g: the classes do not say how many particles of which size are in them",
+		     open, o->tolerance / 2);
+	else if (error > o->tolerance / 2)
+		warn(class_table_path(t), "means over sizes have an estimated error of %.2g, more than %.2g, after %ld sizes", error, o->tolerance / 2, sizes);
+	if (o->verbose && sizes)
+		warn("verbose", "means over %ld sizes in all; estimated error at most %.2g", sizes, error + open);
+}
+
+/* Angles for a model that is asked for given ones: those of the largest x. */
+static void given_angles(struct phase_means_request *r, double **own)
+{
+	double x = 0;
+	for (size_t i = 0; i < r->table->n; i++) {
+		const struct class_row *row = &r->table->row[i];
+		double most = row->class < 0 ? 1 : r->table->class[row->class].hi / row->w.size.radius;
+		x = fmax(x, size_extent(&row->w.size) * most);
 	}
-	/* A mean of many sizes is smooth, which is seen when it is there. */
-	int level = FIRST_LEVEL;
-	for (double coarse = e->sub ? COARSE : 1;; coarse /= 4) {
-		take_angles(e, angle_grid_fine(x / coarse, half, NULL));
-		angle_grid_fine(x / coarse, half, e->theta);
-		level = integrate(a, level, 1);
-		if (level_only || thin(e, half) || coarse == 1)
-			return level;
+	r->n = angle_grid_count(x);
+	r->theta = *own = xalloc((size_t)r->n, sizeof **own);
+	angle_grid(x, *own);
+}
+
+static struct phase_means **means_of(const struct phase_options *o, const struct phase_means_request *r)
+{
+	const struct class_table *t = r->table;
+	struct phase_means **m = xalloc(t->waves, sizeof *m);
+	for (size_t w = 0; w < t->waves; w++)
+		m[w] = phase_means_new(r, w);
+	tell(o, t, t->waves, m);
+	return m;
+}
+
+static void free_means(size_t n, struct phase_means **m)
+{
+	for (size_t i = 0; i < n; i++)
+		phase_means_free(m[i]);
+	free(m);
+}
+
+static void put(struct tab_out *out, const struct curves *c, size_t i, int key, double *row)
+{
+	for (long k = 0; k < c->angles; k++) {
+		row[key] = c->theta[k];
+		for (int e = 0; e < PHASE_ELEMENTS; e++)
+			row[key + 1 + e] = c->value[i][e * c->angles + k];
+		tab_put(out, row);
 	}
 }
 
-void ensemble_average_table(const struct phase_options *o, struct spheres *in, const struct phase_model *model, long n,
+void ensemble_average_table(const struct phase_options *o, const struct class_table *t, const struct phase_model *model, long n,
                             const double *theta, const char *output, const char *command)
 {
 	const struct tab_col cols[] = { column_wavelength, column_theta, column_p };
-	struct average a = { .o = o, .ensemble = { .in = in, .model = model } };
-	struct ensemble *e = &a.ensemble;
-	int level = 0;
-	ensemble_read(e);
-	if (!n || e->sub)
-		level = own_angles(&a, n > 0);
-	if (n) {
-		take_angles(e, n);
-		memcpy(e->theta, theta, (size_t)n * sizeof *theta);
-		integrate(&a, level, 0);
-	}
-	if (o->verbose && e->sub) {
-		long sizes = 0;
-		for (int k = 0; k <= level; k++)
-			sizes += size_quadrature_count(e->sub, k);
-		warn("verbose", "mean over %ld sizes; half as many change it by %.2g", sizes, a.change);
-	}
-	struct tab_out *out = tab_create(output, spheres_history(in), command, 2 + PHASE_ELEMENTS, cols);
-	for (size_t m = 0; m < e->nmean; m++) {
-		double row[2 + PHASE_ELEMENTS] = { e->mean[m].size.wavelength };
-		for (long i = 0; i < e->n; i++) {
-			row[1] = e->theta[i];
-			for (int k = 0; k < PHASE_ELEMENTS; k++)
-				row[2 + k] = e->mean[m].value[k * e->n + i];
-			tab_put(out, row);
-		}
-		free(e->mean[m].value);
+	struct phase_means_request r = { t, model, 1, o->tolerance / 2, n, theta };
+	double *own = NULL;
+	if (!model->any_angles && !n)
+		given_angles(&r, &own);
+	struct phase_means **m = means_of(o, &r);
+	struct curves c = { .n = t->waves, .means = (const struct phase_means **)m, .group = xalloc(t->waves, sizeof *c.group) };
+	settle(&c, o, model->any_angles ? n : r.n, r.theta);
+	struct tab_out *out = tab_create(output, spheres_history(t->in), command, spheres_law(t->in), 2 + PHASE_ELEMENTS, cols);
+	for (size_t w = 0; w < t->waves; w++) {
+		double row[2 + PHASE_ELEMENTS] = { t->wave[w].wavelength };
+		put(out, &c, w, 1, row);
 	}
 	tab_finish(out);
-	free(e->theta);
-	ensemble_free(e);
+	forget(&c);
+	free(c.group);
+	free(own);
+	free_means(t->waves, m);
+}
+
+void ensemble_class_table(const struct phase_options *o, const struct class_table *t, const struct phase_model *model, long n,
+                          const double *theta, const char *output, const char *command)
+{
+	struct phase_means_request r = { t, model, 0, o->tolerance / 2, n, theta };
+	struct tab_col cols[TAB_COLS];
+	double *own = NULL, row[TAB_COLS];
+	int key = spheres_key_columns(t->in, cols), mine = key + 1 + PHASE_ELEMENTS;
+	cols[key] = column_theta;
+	cols[key + 1] = column_p;
+	memcpy(cols + mine, t->carried, (size_t)t->ncarried * sizeof *cols);
+	if (!model->any_angles && !n)
+		given_angles(&r, &own);
+	struct phase_means **m = means_of(o, &r), **alone = xalloc(t->waves, sizeof *alone);
+	struct curves c = { .means = xalloc(t->waves, sizeof *c.means), .group = xalloc(t->waves, sizeof *c.group) };
+	struct tab_out *out = tab_create(output, spheres_history(t->in), command, spheres_law(t->in), mine + t->ncarried, cols);
+	for (size_t from = 0, to; from < t->n; from = to) {
+		size_t single = 0;
+		c.n = 0;
+		for (to = from; to < t->n && (to == from || !t->row[to].w.size.first); to++) {
+			const struct class_row *at = &t->row[to];
+			if (at->class < 0)
+				alone[single++] = phase_means_of_row(&r, to);
+			c.means[c.n] = at->class < 0 ? alone[single - 1] : m[at->wave];
+			c.group[c.n++] = at->class < 0 ? 0 : (size_t)at->class;
+		}
+		settle(&c, o, model->any_angles ? n : r.n, r.theta);
+		for (size_t i = from; i < to; i++) {
+			spheres_key(t->in, &t->row[i].w.size, row);
+			spheres_carry(t->in, &t->row[i].w, row + mine);
+			put(out, &c, i - from, key, row);
+		}
+		forget(&c);
+		for (size_t i = 0; i < single; i++)
+			phase_means_free(alone[i]);
+	}
+	tab_finish(out);
+	free(c.means);
+	free(c.group);
+	free(alone);
+	free(own);
+	free_means(t->waves, m);
 }

@@ -31,10 +31,24 @@ struct job {
 	const struct phase_options *o;
 	struct spheres *in;
 	const struct phase_model *model;
+	struct class_table *table;    /* NULL: rows come from in */
+	size_t row;               /* of it, that comes next */
 	struct tab_out *out;
 	int n;                    /* angles for all, 0: a grid for each size */
 	double *theta;
 };
+
+static int next_waves(struct job *j, struct waves *out)
+{
+	if (!j->table)
+		return spheres_next(j->in, out);
+	if (j->row == j->table->n)
+		return 0;
+	struct class_row *row = &j->table->row[j->row++];
+	*out = row->w;
+	row->w = (struct waves){ 0 };      /* who takes it frees it */
+	return 1;
+}
 
 /* Read whole sizes until a batch is full. next is what was read ahead, unless *more is 0. */
 static void gather(struct job *j, struct batch *b, struct waves *next, int *more)
@@ -55,7 +69,7 @@ static void gather(struct job *j, struct batch *b, struct waves *next, int *more
 		if (b->n - 1 > group && x > b->x_grid[group])
 			b->x_grid[group] = x;
 		terms += (size_t)next->n;
-		*more = spheres_next(j->in, next);
+		*more = next_waves(j, next);
 	}
 	for (size_t i = 1; i < b->n; i++)
 		if (!b->w[i].size.first)
@@ -207,18 +221,25 @@ static void choose_angles(struct job *j)
 			die("--theta", "%g stands twice", j->theta[i]);
 }
 
-static void each(struct job *j, const char *output, const char *command)
+/* The key's columns, *k, those of OWN, and what is carried; returns how many that is. */
+static int columns(struct spheres *in, struct tab_col *cols, int *k)
 {
 	const struct tab_col own[OWN] = { column_theta, column_s1_re, column_s1_im, column_s2_re, column_s2_im, column_p };
+	*k = spheres_key_columns(in, cols);
+	memcpy(cols + *k, own, sizeof own);
+	return spheres_carried(in, *k + OWN, cols, cols + *k + OWN);
+}
+
+static void each(struct job *j, const char *output, const char *command)
+{
 	struct tab_col cols[TAB_COLS];
 	struct batch b = { 0 };
 	struct waves next;
-	int k = spheres_key_columns(j->in, cols);
-	memcpy(cols + k, own, sizeof own);
-	int ncarried = spheres_carried(j->in, k + OWN, cols, cols + k + OWN);
-	int more = spheres_next(j->in, &next);
+	int k, ncarried = columns(j->in, cols, &k);
+	int more = next_waves(j, &next);
 	gather(j, &b, &next, &more);
-	j->out = tab_create(output, spheres_history(j->in), command, k + OWN + ncarried, cols);
+	j->out = tab_create(output, spheres_history(j->in), command, spheres_law(j->in), k + OWN + ncarried,
+	                    cols);
 	for (; b.n; gather(j, &b, &next, &more))
 		if (j->n || !j->model->any_angles)
 			compute(j, &b);
@@ -254,12 +275,23 @@ static void check_peak(const struct phase_options *o, const struct spheres *in)
 void phase_table(const struct phase_options *o, struct spheres *in, const struct phase_model *model, const char *output,
                  const char *command)
 {
+	struct tab_col cols[TAB_COLS];
 	struct job j = { .o = o, .in = in, .model = model };
 	choose_angles(&j);
 	if (o->average)
-		ensemble_average_table(o, in, model, j.n, j.theta, output, command);
+		class_table_need(in);
+	if (o->average || (class_table_in(in) && !o->at_radius)) {
+		int k, ncarried = columns(in, cols, &k);
+		j.table = class_table_read(in, ncarried, cols + k + OWN, o->at_radius);
+	}
+	if (o->average)
+		ensemble_average_table(o, j.table, model, j.n, j.theta, output, command);
+	else if (j.table && j.table->classes)
+		ensemble_class_table(o, j.table, model, j.n, j.theta, output, command);
 	else
 		each(&j, output, command);
+	if (j.table)
+		class_table_free(j.table);
 	if (o->angles)
 		check_peak(o, in);
 	free(j.theta);

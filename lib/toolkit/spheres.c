@@ -46,6 +46,7 @@ struct spheres *spheres_open(const struct sizes_options *o, const char *operand)
 struct tab *spheres_table(const struct spheres *s) { return s->table; }
 const char *spheres_coeffs(const struct spheres *s) { return s->coeffs ? tab_path(s->table) : NULL; }
 const char *spheres_history(const struct spheres *s) { return s->table ? tab_history(s->table) : ""; }
+const char *spheres_law(const struct spheres *s) { return s->table ? tab_law(s->table) : NULL; }
 int spheres_by_x(const struct spheres *s) { return s->sizes ? sizes_by_x(s->sizes) : coeffs_by_x(s->coeffs); }
 
 int spheres_key_columns(const struct spheres *s, struct tab_col *cols)

@@ -15,10 +15,11 @@ struct spheres *spheres_open(const struct sizes_options *o, const char *operand)
 struct spheres *spheres_open_sizes(const struct sizes_options *o, const char *operand);
 
 /* spheres_table - the table in use, NULL where the options give the sizes. spheres_coeffs - its name where coefficients are
- * read, else NULL. spheres_history - its cmd lines, "" without one. */
+ * read, else NULL. spheres_history - its cmd lines, "" without one. spheres_law - as tab_law. */
 struct tab *spheres_table(const struct spheres *s);
 const char *spheres_coeffs(const struct spheres *s);
 const char *spheres_history(const struct spheres *s);
+const char *spheres_law(const struct spheres *s);
 
 /* spheres_by_x - whether the key is x, not wavelength and radius. spheres_key_columns - the key's columns into cols;
  * spheres_key - its values into row. Return how many. */

@@ -5,13 +5,18 @@
 #include <math.h>
 #include <stdlib.h>
 
+int waves_terms(const struct waves *w)
+{
+	return w->a ? w->n : w->size.x_im == 0 ? mie_terms(w->size.x, w->size.m) : mie_host_terms(size_x(&w->size), w->size.m);
+}
+
 int waves_solve(struct waves *w)
 {
 	if (w->a)
 		return 0;
 	int clear = w->size.x_im == 0;
 	double complex x = size_x(&w->size);
-	w->n = clear ? mie_terms(w->size.x, w->size.m) : mie_host_terms(x, w->size.m);
+	w->n = waves_terms(w);
 	w->lossless = clear && cimag(w->size.m) == 0;
 	w->a = malloc(((size_t)w->n + 1) * sizeof *w->a);
 	w->b = malloc(((size_t)w->n + 1) * sizeof *w->b);

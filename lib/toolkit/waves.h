@@ -23,6 +23,9 @@ int waves_solve(struct waves *w);
 struct efficiencies waves_efficiencies(const struct waves *w, double *error);
 double waves_norm(const struct waves *w, double q_sca);
 
+/* waves_terms - how many partial waves there are, or will be. */
+int waves_terms(const struct waves *w);
+
 /* waves_drop - give back the coefficients; waves_free - these and the rest. */
 void waves_drop(struct waves *w);
 void waves_free(struct waves *w);

@@ -95,7 +95,7 @@ static char *in_folder(const char *name)
 }
 
 /* A table of rows by cols values; columns are name and unit by turns. */
-static void table(const char *name, int ncols, const char *const *columns, int rows, const double *values)
+static void table(const char *name, const char *law, int ncols, const char *const *columns, int rows, const double *values)
 {
 	struct tab_col cols[TAB_COLS];
 	char *path = in_folder(name);
@@ -104,7 +104,7 @@ static void table(const char *name, int ncols, const char *const *columns, int r
 		strcpy(cols[i].name, columns[2 * i]);
 		strcpy(cols[i].unit, columns[2 * i + 1]);
 	}
-	struct tab_out *t = tab_create(path, "", "by hand", ncols, cols);
+	struct tab_out *t = tab_create(path, "", "by hand", law, ncols, cols);
 	for (int i = 0; i < rows; i++)
 		tab_put(t, values + i * ncols);
 	tab_finish(t);
@@ -129,15 +129,15 @@ static void make_inputs(void)
 {
 	if (!mkdtemp(folder))
 		die(folder, "cannot create:");
-	table("sizes", 4, WORDS{ "radius", "um", "weight", "1", "radius_lo", "um", "radius_hi", "um" }, 2,
-	      ROWS{ 1, 0.75, 0.5, 2, 3, 0.25, 2, 4 });
-	table("coeffs", 8, WORDS{ "x", "1", "host_re", "1", "host_im", "1", "n", "1", "a_re", "1", "a_im", "1", "b_re", "1", "b_im", "1" },
+	table("sizes", "uniform min=0.5 max=4", 4, WORDS{ "radius", "um", "weight", "1", "radius_lo", "um", "radius_hi", "um" }, 2,
+	      ROWS{ 1, 3.0 / 7, 0.5, 2, 3, 4.0 / 7, 2, 4 });
+	table("coeffs", NULL, 8, WORDS{ "x", "1", "host_re", "1", "host_im", "1", "n", "1", "a_re", "1", "a_im", "1", "b_re", "1", "b_im", "1" },
 	      2, ROWS{ 1, 1, 0, 1, 0.5, 0.5, 0.1, 0.3, 1, 1, 0, 2, 0.01, 0.1, 0, 0 });
-	table("xsect", 4, WORDS{ "wavelength", "um", "radius", "um", "c_ext", "um^2", "c_sca", "um^2" }, 2,
+	table("xsect", NULL, 4, WORDS{ "wavelength", "um", "radius", "um", "c_ext", "um^2", "c_sca", "um^2" }, 2,
 	      ROWS{ 0.55, 1, 6, 5, 0.55, 3, 60, 50 });
-	table("phase", 3, WORDS{ "wavelength", "um", "theta", "deg", "p", "sr^-1" }, 3,
+	table("phase", NULL, 3, WORDS{ "wavelength", "um", "theta", "deg", "p", "sr^-1" }, 3,
 	      ROWS{ 0.55, 0, M_1_PI / 4, 0.55, 90, M_1_PI / 4, 0.55, 180, M_1_PI / 4 });
-	table("grains", 4, WORDS{ "x", "m", "y", "m", "z", "m", "radius", "um" }, 2, ROWS{ 0, 0, 0, 1, 0.1, 0.2, 0.3, 3 });
+	table("grains", NULL, 4, WORDS{ "x", "m", "y", "m", "z", "m", "radius", "um" }, 2, ROWS{ 0, 0, 0, 1, 0.1, 0.2, 0.3, 3 });
 
 	char *path = in_folder("csv");
 	FILE *f = fopen(path, "w");

@@ -40,16 +40,16 @@ golden mie-coeffs.txt out
 is '# x:f64:1	host_re:f64:1	host_im:f64:1	n:i32:1	a_re:f64:1	a_im:f64:1	b_re:f64:1	b_im:f64:1' \
 	"$(mie-coeffs --particle 1.33 --size-parameter 1 | tabtxt | head -1)" 'mie-coeffs by size parameter'
 
-# Coefficients streamed give what is computed at once, but for rounding (c_abs, a difference, to that of c_ext); carried columns travel.
+# Coefficients, which are those of a radius, give what is computed at once, but for rounding (c_abs, a difference, to that of c_ext); carried columns travel.
 for m in 1.33 1.33+1e-8i 1.5+0.1i; do
 	options="--particle $m --wavelength 450nm,550nm,650nm"
 	# shellcheck disable=SC2086
 	{
-		xsect --method mie $options psd.tab >direct.tab
+		xsect --method mie --at-radius $options psd.tab >direct.tab
 		mie-coeffs $options psd.tab | xsect >streamed.tab
 		tabcmp --rel 1e-12 --abs 1e-11 direct.tab streamed.tab >diff.txt 2>&1
 		is '0 49' "$? $(tabtxt streamed.tab | wc -l)" "mie-coeffs | xsect, $m"
-		mie-phase $options --angles 37 psd.tab >direct.tab
+		mie-phase --at-radius $options --angles 37 psd.tab >direct.tab
 		mie-coeffs $options psd.tab | mie-phase --angles 37 >streamed.tab
 		tabcmp --rel 1e-12 direct.tab streamed.tab >diff.txt 2>&1
 		ok $? "mie-coeffs | mie-phase, $m"
@@ -57,7 +57,7 @@ for m in 1.33 1.33+1e-8i 1.5+0.1i; do
 done
 # shellcheck disable=SC2086
 {
-	mie-phase $water psd.tab >direct.tab
+	mie-phase --at-radius $water psd.tab >direct.tab
 	mie-coeffs $water psd.tab | mie-phase >streamed.tab
 	tabcmp direct.tab streamed.tab >diff.txt 2>&1
 	ok $? 'on the default grid, too'

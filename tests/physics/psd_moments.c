@@ -83,7 +83,8 @@ static void tails(const char *name, struct psd p, struct psd wide)
 	double min, max;
 	psd_limits(&p, &min, &max);
 	double number = psd_moment(&wide, 0, 0, min), volume = psd_moment(&wide, 3, max, INFINITY) / psd_moment(&wide, 3, 0, INFINITY);
-	ok(fabs(number / PSD_TAIL - 1) < 1e-3 && fabs(volume / PSD_TAIL - 1) < 1e-3,
+	/* wide begins at PSD_RADIUS_MIN, which leaves a thousandth of the number below normal's min */
+	ok(fabs(number / PSD_TAIL - 1) < 2e-3 && fabs(volume / PSD_TAIL - 1) < 1e-3,
 	   "%s: %.4e of the number below, %.4e of the volume above", name, number, volume);
 }
 

@@ -37,24 +37,30 @@ static void cosines_to_grid(struct legendre_series *s, int n, const double *c, d
 	}
 }
 
-static int prepare(struct legendre_series *s, int n, double (*c)[LEGENDRE_SERIES_SUMS])
+static int cosines(struct legendre_series *s, int n, const double (*c)[LEGENDRE_SERIES_SUMS])
 {
 	double b = M_PI * TAPS * (1 - n / (2.0 * s->steps));
-	int rows = n / 2 + 1;
 	size_t room = 2 * (size_t)s->steps;
-	double *x = calloc(16 * (size_t)rows, sizeof *x), *fft = calloc(5 * room, sizeof *fft);
-	int failed = !x || !fft;
+	double *fft = calloc(5 * room, sizeof *fft);
+	if (!fft)
+		return -1;
+	double *re[2] = { fft, fft + room }, *im[2] = { fft + 2 * room, fft + 3 * room };
+	window_weights(b, s->poly);
+	cosines_to_grid(s, n, c[0], b, fft + 4 * room, re, im);
+	free(fft);
+	return 0;
+}
+
+static int prepare(struct legendre_series *s, int n, double (*c)[LEGENDRE_SERIES_SUMS])
+{
+	int rows = n / 2 + 1;
+	double *x = calloc(16 * (size_t)rows, sizeof *x);
+	int failed = !x;
 	if (!failed) {
-		double *re[2] = { fft, fft + room }, *im[2] = { fft + 2 * room, fft + 3 * room };
 		memcpy(x, c, ((size_t)n + 1) * sizeof *c);
-		failed = legendre_cosines(rows, x, x + 8 * (size_t)rows);
-		if (!failed) {
-			window_weights(b, s->poly);
-			cosines_to_grid(s, n, x + 8 * (size_t)rows, b, fft + 4 * room, re, im);
-		}
+		failed = legendre_cosines(rows, x, x + 8 * (size_t)rows) || cosines(s, n, (const double (*)[LEGENDRE_SERIES_SUMS])(x + 8 * (size_t)rows));
 	}
 	free(x);
-	free(fft);
 	return failed ? -1 : 0;
 }
 
@@ -69,4 +75,4 @@ static void at(const struct legendre_series *s, int count, const double *theta, 
 	}
 }
 
-const struct legendre_series_lanes BUILD = { prepare, at, fourier_waves, fourier };
+const struct legendre_series_lanes BUILD = { prepare, cosines, at, fourier_waves, fourier };

@@ -18,6 +18,8 @@ struct legendre_series {
 struct legendre_series_lanes {
 	/* fill poly and grid from Legendre coefficients c[n+1]; 0, or -1 when memory ran out */
 	int (*prepare)(struct legendre_series *s, int n, double (*c)[LEGENDRE_SERIES_SUMS]);
+	/* the same from c[n+1] of cos k theta */
+	int (*cosines)(struct legendre_series *s, int n, const double (*c)[LEGENDRE_SERIES_SUMS]);
 	void (*at)(const struct legendre_series *s, int count, const double *theta, double (*values)[LEGENDRE_SERIES_SUMS]);
 	/* fourier_waves and fourier of kern/fourier.h */
 	void (*waves)(int n, double *wave);

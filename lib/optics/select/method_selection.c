@@ -36,6 +36,8 @@ struct method_selection *method_selection_new(enum method method, double toleran
 	return NULL;
 }
 
+enum method method_selection_asked(const struct method_selection *l) { return l->method; }
+
 static void forget(struct method_selection *l)
 {
 	for (size_t k = 0; k < l->room; k++)

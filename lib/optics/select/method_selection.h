@@ -11,6 +11,8 @@ struct method_selection;
 /* method_selection_new - NULL when memory ran out. tolerance: of METHOD_AUTO, on the larger of the relative errors of ext and sca and the
  * absolute error of g; back is not in it. */
 struct method_selection *method_selection_new(enum method method, double tolerance);
+/* method_selection_asked - the method it was made for. */
+enum method method_selection_asked(const struct method_selection *l);
 void method_selection_free(struct method_selection *l);
 
 /* method_selection_many - n spheres. What a method prepares for an index pays only for many sizes: METHOD_AUTO counts what Lorenz-Mie

@@ -124,7 +124,7 @@ const char *psd_classes(const struct psd *p, int n, struct psd_class *out)
 	/* What counts at all, and the part of it that is cut into equal panels; the outer ones reach as far as it counts. */
 	bottom = psd_law_support(&d, 0, psd_law_peak(&d, 0, bottom, top), bottom);
 	top = psd_law_support(&d, 3, psd_law_peak(&d, 3, bottom, top), top);
-	psd_law_bulk(&d, &from, &to);
+	psd_law_within(&d, PSD_BULK, &from, &to);
 	from = fmax(from, bottom);
 	to = fmin(to, top);
 	if (!(from < to)) {

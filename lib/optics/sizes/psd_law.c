@@ -103,12 +103,12 @@ double psd_law_integral(const struct psd_law *d, int k, double scale, double lo,
 	return sum;
 }
 
-/* Where the share PSD_TAIL of moment k lies below (side < 0) or above (side > 0), within [lo, hi]. */
-static double tail(const struct psd_law *d, int k, int side, double lo, double hi)
+/* Where a share of moment k lies below (side < 0) or above (side > 0), within [lo, hi]. */
+static double tail(const struct psd_law *d, double share, int k, int side, double lo, double hi)
 {
 	double top = psd_law_peak(d, k, lo, hi), scale = psd_law_log(d, top) + k * top;
 	double rest = d->kind == PSD_GAMMA ? exp((d->s + k) * LEFT + d->s - scale) / (d->s + k) : 0;     /* below LEFT */
-	double want = PSD_TAIL * (psd_law_integral(d, k, scale, LEFT, hi) + rest), in = top, out = side < 0 ? lo : hi;
+	double want = share * (psd_law_integral(d, k, scale, LEFT, hi) + rest), in = top, out = side < 0 ? lo : hi;
 	for (int i = 0; i < 60; i++) {
 		double mid = in + (out - in) / 2;
 		double beyond = side > 0 ? psd_law_integral(d, k, scale, mid, hi)
@@ -145,7 +145,7 @@ static const char *law_of(const struct psd *p, struct psd_law *d)
 	case PSD_UNIFORM:
 		d->s = 1;
 		break;
-	case PSD_POWER:
+	default:
 		d->s = 1 - p->a;
 		if (!(fabs(p->a) <= 100))
 			return "needs an exponent from -100 to 100";
@@ -157,9 +157,9 @@ static const char *law_of(const struct psd *p, struct psd_law *d)
 	return NULL;
 }
 
-void psd_law_bulk(const struct psd_law *d, double *lo, double *hi)
+void psd_law_within(const struct psd_law *d, double share, double *lo, double *hi)
 {
-	static const double z = 3.719016485455709;     /* the normal distribution leaves PSD_TAIL beyond */
+	const double z = share < PSD_BULK ? 5.612001244174789 : 3.719016485455709;     /* the normal distribution leaves share beyond */
 	double bottom = log(PSD_RADIUS_MIN / d->ref) - 1, top = log(PSD_RADIUS_MAX / d->ref) + 1;
 	switch (d->kind) {
 	case PSD_LOGNORMAL:
@@ -169,8 +169,8 @@ void psd_law_bulk(const struct psd_law *d, double *lo, double *hi)
 	case PSD_GAMMA:
 	case PSD_NORMAL:
 		top = fmax(top, psd_law_peak(d, 3, -INFINITY, INFINITY) + 10);
-		*lo = tail(d, 0, -1, fmin(bottom, LEFT), psd_law_support(d, 3, psd_law_peak(d, 3, -INFINITY, INFINITY), top));
-		*hi = tail(d, 3, 1, LEFT, psd_law_support(d, 3, psd_law_peak(d, 3, -INFINITY, INFINITY), top));
+		*lo = tail(d, share, 0, -1, fmin(bottom, LEFT), psd_law_support(d, 3, psd_law_peak(d, 3, -INFINITY, INFINITY), top));
+		*hi = tail(d, share, 3, 1, LEFT, psd_law_support(d, 3, psd_law_peak(d, 3, -INFINITY, INFINITY), top));
 		break;
 	default:
 		*lo = -INFINITY;
@@ -192,11 +192,13 @@ const char *psd_law_limits(const struct psd *p, struct psd_law *d, double *min, 
 		return NULL;
 	}
 	if (isnan(p->min) || isnan(p->max)) {
-		psd_law_bulk(d, &lo, &hi);
+		double low, high;
+		psd_law_within(d, PSD_BULK, &low, &high);
+		psd_law_within(d, PSD_TAIL, &lo, &hi);
 		if (isnan(p->min))
-			*min = d->ref * exp(lo);
+			*min = fmax(d->ref * exp(lo), fmin(PSD_RADIUS_MIN, d->ref * exp(low)));
 		if (isnan(p->max))
-			*max = d->ref * exp(hi);
+			*max = fmin(d->ref * exp(hi), fmax(PSD_RADIUS_MAX, d->ref * exp(high)));
 		if (isnan(p->min) && *min < PSD_RADIUS_MIN)
 			return "reaches below 1e-9um by default; give its smallest radius";
 		if (isnan(p->max) && *max > PSD_RADIUS_MAX)

@@ -20,8 +20,9 @@ struct psd_law {
 /* psd_law_limits - the law, and its truncation in um. Returns NULL, or what is wrong with the parameters. */
 const char *psd_law_limits(const struct psd *p, struct psd_law *d, double *min, double *max);
 
-/* psd_law_bulk - the default truncation, in y; uniform and power have none. */
-void psd_law_bulk(const struct psd_law *d, double *lo, double *hi);
+/* psd_law_within - where a share (PSD_BULK or PSD_TAIL) of the number lies below *lo, and of the volume above *hi, in y; infinite for
+ * uniform and power. */
+void psd_law_within(const struct psd_law *d, double share, double *lo, double *hi);
 
 /* psd_law_log - the density's logarithm. */
 double psd_law_log(const struct psd_law *d, double y);

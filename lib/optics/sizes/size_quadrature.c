@@ -1,124 +1,20 @@
 #include "optics/sizes/size_quadrature.h"
 
+#include "optics/sizes/psd_law.h"
+
 #include <math.h>
 #include <stdlib.h>
-
-#define STEPS 64           /* of level 0 */
-#define JOINED 1e-9        /* limits that differ by less are one */
-#define LEAST 4            /* steps of a run of classes */
-
-/* A class: density by t, 0 to 1 between ln lo and ln hi, is left + t (right - left + bulge (1 - t)), or, alone, exp(tilt t). */
-struct cell {
-	double lo, hi, weight;         /* ln um */
-	double left, right, bulge, tilt;
-	int alone;
-};
-
-/* Classes that join. */
-struct run {
-	int first, n;
-	double v, length;              /* v at its lower end, and from there */
-	long steps;                    /* of level 0 */
-};
-
-struct size_quadrature {
-	int n, nruns;
-	double scale;
-	struct cell *cell;
-	struct run *run;
-};
-
-static int by_limits(const void *a, const void *b)
-{
-	const struct psd_class *p = a, *q = b;
-	return p->lo != q->lo ? (p->lo > q->lo) - (p->lo < q->lo) : (p->hi > q->hi) - (p->hi < q->hi);
-}
-
-/* ln of the mean of e^(s t) over [0, 1] */
-static double log_mean(double s)
-{
-	if (fabs(s) < 1e-6)
-		return s / 2;
-	return s > 0 ? s + log(-expm1(-s) / s) : log(expm1(s) / s);
-}
-
-static void stand_alone(struct cell *c, double radius)
-{
-	double cube = 3 * (log(radius) - c->lo), span = 3 * (c->hi - c->lo), lo = -1e6, hi = 1e6;
-	c->alone = 1;
-	for (int i = 0; i < 100; i++) {
-		c->tilt = (lo + hi) / 2;
-		if (log_mean(span + c->tilt) - log_mean(c->tilt) < cube)
-			lo = c->tilt;
-		else
-			hi = c->tilt;
-	}
-}
-
-/* Slope, at the lower end of cell j (or the upper of cell j - 1), of the number below, by up to five limits around. */
-static double slope(const struct cell *c, int n, int j)
-{
-	int first = j - 2, last = j + 2;
-	if (first < 0) {
-		last -= first;
-		first = 0;
-	}
-	if (last > n) {
-		first = first - (last - n) > 0 ? first - (last - n) : 0;
-		last = n;
-	}
-	double y[5], below[5], b[5], sum = 0;
-	int m = last - first + 1;
-	for (int k = 0; k < m; k++) {
-		y[k] = first + k < n ? c[first + k].lo : c[n - 1].hi;
-		below[k] = k ? below[k - 1] + c[first + k - 1].weight : 0;
-	}
-	for (int k = 0; k < m; k++) {
-		b[k] = 1;
-		for (int i = 0; i < m; i++)
-			if (i != k)
-				b[k] /= y[k] - y[i];
-	}
-	j -= first;
-	for (int k = 0; k < m; k++)
-		if (k != j)
-			sum += b[k] / b[j] * (below[k] - below[j]) / (y[j] - y[k]);
-	return sum;
-}
-
-static void shape(struct cell *c, int n)
-{
-	for (int j = 0; j <= n; j++) {
-		double before = j ? c[j - 1].weight / (c[j - 1].hi - c[j - 1].lo) : INFINITY;
-		double after = j < n ? c[j].weight / (c[j].hi - c[j].lo) : INFINITY;
-		double s = fmin(fmax(slope(c, n, j), 0), 3 * fmin(before, after));
-		if (j)
-			c[j - 1].right = s * (c[j - 1].hi - c[j - 1].lo);
-		if (j < n)
-			c[j].left = s * (c[j].hi - c[j].lo);
-	}
-	for (int j = 0; j < n; j++)
-		c[j].bulge = 6 * c[j].weight - 3 * (c[j].left + c[j].right);
-}
-
-/* Number by ln r. */
-static double density(const struct cell *c, double y)
-{
-	double width = c->hi - c->lo, t = fmin(fmax((y - c->lo) / width, 0), 1);
-	if (c->alone)
-		return c->weight * exp(c->tilt * t - log_mean(c->tilt)) / width;
-	return fmax(c->left + t * (c->right - c->left + c->bulge * (1 - t)), 0) / width;
-}
 
 static double v_at(double scale, double r)
 {
 	return hypot(r, scale) - scale * asinh(scale / r);
 }
 
-/* v is convex in ln r: Newton's method from above stays there. */
+/* v is convex in ln r: Newton's method from above stays there. r is at most v + scale asinh(1) above scale, and what it is for r << scale
+ * below. */
 static double radius_at(double scale, double v, double above)
 {
-	double y = log(above);
+	double y = log(fmin(above, v > (M_SQRT2 - 0.881373587) * scale ? v + 0.881373588 * scale : 2 * scale * exp(v / scale - 1)));
 	for (int i = 0; i < 100; i++) {
 		double r = exp(y), step = (v_at(scale, r) - v) / hypot(r, scale);
 		y -= step;
@@ -128,85 +24,69 @@ static double radius_at(double scale, double v, double above)
 	return exp(y);
 }
 
-struct size_quadrature *size_quadrature_new(int n, const struct psd_class *c, double scale)
+double size_range_length(const struct size_range *r) { return v_at(r->scale, r->hi) - v_at(r->scale, r->lo); }
+
+long size_range_count(const struct size_range *r, int level)
 {
-	struct psd_class *sorted = malloc((size_t)n * sizeof *sorted);
-	struct size_quadrature *s = calloc(1, sizeof *s);
-	if (s) {
-		s->cell = calloc((size_t)n, sizeof *s->cell);
-		s->run = calloc((size_t)n, sizeof *s->run);
-	}
-	if (!sorted || !s || !s->cell || !s->run) {
-		free(sorted);
-		size_quadrature_free(s);
-		return NULL;
-	}
-	for (int i = 0; i < n; i++)
-		sorted[i] = c[i];
-	qsort(sorted, (size_t)n, sizeof *sorted, by_limits);
-	s->n = n;
-	s->scale = scale;
-	double length = 0, least = fmax(STEPS, 2.0 * n);
-	for (int i = 0, to; i < n; i = to) {
-		struct run *r = &s->run[s->nruns++];
-		for (to = i; to < n && (to == i || fabs(sorted[to].lo / sorted[to - 1].hi - 1) < JOINED); to++)
-			s->cell[to] = (struct cell){ .lo = to > i ? s->cell[to - 1].hi : log(sorted[to].lo), .hi = log(sorted[to].hi),
-				.weight = sorted[to].weight };
-		r->first = i;
-		r->n = to - i;
-		if (r->n == 1)
-			stand_alone(&s->cell[i], sorted[i].radius);
-		else
-			shape(s->cell + i, r->n);
-		r->v = v_at(scale, sorted[i].lo);
-		r->length = v_at(scale, sorted[to - 1].hi) - r->v;
-		length += r->length;
-	}
-	for (int i = 0; i < s->nruns; i++)
-		s->run[i].steps = (long)fmax(LEAST, ceil(least * s->run[i].length / length));
-	free(sorted);
-	return s;
+	(void)r;
+	return level ? (long)SIZE_STEPS << (level - 1) : SIZE_STEPS + 1;
 }
 
-void size_quadrature_free(struct size_quadrature *s)
+void size_range_at(const struct size_range *r, const struct size_density *d, int level, long k, double *radius,
+                   double weight[SIZE_WAYS])
 {
-	if (!s)
+	double h = 1.0 / (double)((long)SIZE_STEPS << level), t = (level ? 2.0 * (double)k + 1 : (double)k) * h, at = t, slope = 1;
+	double turn = (r->cut_lo && r->cut_hi ? 2 : 1) * M_PI;
+	if (r->cut_lo) {
+		at = t - sin(turn * t) / turn;
+		slope = 2 * sin(turn * t / 2) * sin(turn * t / 2);
+	} else if (r->cut_hi) {
+		at = t + sin(turn * t) / turn;
+		slope = 2 * cos(turn * t / 2) * cos(turn * t / 2);
+	}
+	double from = v_at(r->scale, r->lo), length = v_at(r->scale, r->hi) - from;
+	*radius = fmin(fmax(radius_at(r->scale, from + at * length, r->hi), r->lo), r->hi);
+	double dy = length * slope * h / hypot(*radius, r->scale), y = log(*radius);
+	if (!level && (k == 0 || k == SIZE_STEPS))
+		dy /= 2;
+	for (int way = 0; way < size_density_ways(d); way++)
+		weight[way] = size_density_at(d, r->class, way, y) * dy;
+}
+
+/* The share of an envelope r^2 q(r) from one side comes to want: where. */
+static double reach(const struct psd_points *p, const double *part, double want, int side)
+{
+	double all = 0, sum = 0;
+	for (int i = 0; i < p->n; i++)
+		all += part[i];
+	for (int k = 0; k < p->n; k++) {
+		int i = side < 0 ? k : p->n - 1 - k;
+		sum += part[i];
+		if (sum > want * all)
+			return p->y[side < 0 ? (i ? i - 1 : 0) : i + 1 < p->n ? i + 1 : i];
+	}
+	return p->y[0];
+}
+
+void size_reach(const struct psd *law, double scale, double contrast, double share, double *lo, double *hi)
+{
+	struct psd_law d;
+	struct psd_points p;
+	double part[PSD_NODES * PSD_PIECES], edge = fmin(1, contrast);
+	psd_law_limits(law, &d, lo, hi);
+	int low = isnan(law->min), high = isnan(law->max);
+	if (law->kind == PSD_MONO || (!low && !high))
 		return;
-	free(s->cell);
-	free(s->run);
-	free(s);
-}
-
-static long of_run(const struct run *r, int level)
-{
-	return level ? r->steps << (level - 1) : r->steps + 1;
-}
-
-long size_quadrature_count(const struct size_quadrature *s, int level)
-{
-	long n = 0;
-	for (int i = 0; i < s->nruns; i++)
-		n += of_run(&s->run[i], level);
-	return n;
-}
-
-void size_quadrature_at(const struct size_quadrature *s, int level, long k, double *radius, double *weight)
-{
-	const struct run *r = s->run;
-	for (; k >= of_run(r, level); r++)
-		k -= of_run(r, level);
-	const struct cell *c = s->cell + r->first, *end = c + r->n - 1;
-	double h = r->length / (double)(r->steps << level), at = level ? 2.0 * (double)k + 1 : (double)k;
-	*radius = radius_at(s->scale, r->v + at * h, exp(end->hi));
-	double y = log(*radius);
-	while (c < end) {       /* the last cell that begins at y or below */
-		const struct cell *middle = c + (end - c + 1) / 2;
-		if (middle->lo <= y)
-			c = middle;
-		else
-			end = middle - 1;
+	double from = low ? log(PSD_RADIUS_MIN / d.ref) - 60 : log(*lo / d.ref), to = high ? log(PSD_RADIUS_MAX / d.ref) + 60 : log(*hi / d.ref);
+	double bottom = psd_law_support(&d, 2, psd_law_peak(&d, 2, from, to), from), top = psd_law_support(&d, 6, psd_law_peak(&d, 6, from, to), to);
+	psd_law_points(&d, psd_law_log(&d, psd_law_peak(&d, 2, from, to)), bottom, top, &p);
+	for (int up = 0; up < 2; up++) {
+		if (!(up ? high : low))
+			continue;
+		for (int i = 0; i < p.n; i++) {
+			double x = exp(p.y[i]) * d.ref / scale, q = up ? fmin(x * x * x * x, fmin(x * x, 1 / (edge * edge))) : fmin(x, 1);
+			part[i] = p.w[i] * exp(2 * p.y[i]) * q;
+		}
+		*(up ? hi : lo) = d.ref * exp(reach(&p, part, share, up ? 1 : -1));
 	}
-	*weight = density(c, y) / hypot(*radius, s->scale) * h;
-	if (!level && (k == 0 || k == r->steps))
-		*weight /= 2;
 }
