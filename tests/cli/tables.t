@@ -7,17 +7,18 @@ psd lognormal --median 5um --gsd 1.5 --classes 6 -o sizes.tab
 xsect --particle water --wavelength 550nm sizes.tab -o xsect.tab
 particles --psd sizes.tab --count 50 --box 1m,1m,1m -o grains.tab
 
-# What tabtxt writes comes back, with the units of the tools.
+# What tabtxt writes comes back, with the units of the tools; but for the law, which CSV and NumPy have no place for.
+bare() { tabtxt "$1" | sed '1s/	law=.*//'; }
 for table in sizes xsect grains; do
-	tabtxt --csv $table.tab | txttab -o csv.tab && tabtxt $table.tab >want.txt && tabtxt csv.tab | sed '1s/:[if][0-9]*:/:TYPE:/g' >got.txt
+	tabtxt --csv $table.tab | txttab -o csv.tab && bare $table.tab >want.txt && tabtxt csv.tab | sed '1s/:[if][0-9]*:/:TYPE:/g' >got.txt
 	sed -i '1s/:[if][0-9]*:/:TYPE:/g' want.txt
 	cmp want.txt got.txt >cmp.txt 2>&1
 	ok $? "the CSV of $table comes back"
-	tabtxt --npy $table.tab | txttab | tabtxt >npy.txt && tabtxt $table.tab | cmp - npy.txt
+	tabtxt --npy $table.tab | txttab | tabtxt >npy.txt && bare $table.tab | cmp - npy.txt
 	ok $? "the NumPy of $table comes back, types and all"
 done
 tabtxt --csv sizes.tab >named.npy
-txttab named.npy | tabtxt --columns radius >out && tabtxt --columns radius sizes.tab | cmp - out
+txttab named.npy | tabtxt --columns radius >out && tabtxt --columns radius sizes.tab | sed '1s/	law=.*//' | cmp - out
 ok $? 'a file is known by its content, not its name'
 grep -o '{ "[a-z0-9_]*", TAB_...[^}]*}' "$top/lib/format/columns.h" | sed 's/"//g; s/[{}]//g; s/ //g' | sort -u >columns
 is 0 $(($(wc -l <columns) < 30)) 'all columns are listed'
@@ -41,9 +42,9 @@ printf '\357\273\277"id" , x,"y",z ,radius\r\n7, 1,"2",3 ," 0.5"\r\n8,-1,-2,1e-3
 txttab excel.csv | tabtxt >out && txttab any.csv | tabtxt | cmp - out
 ok $? 'a byte order mark, CR LF, quotes and blanks make no difference'
 mie-phase --particle water --wavelength 550nm --average sizes.tab -o phase.tab
-bake() { medium-bake --xsect xsect.tab --phase phase.tab -o "$@"; }
+bake() { medium-bake --xsect xsect.tab --phase phase.tab --box 1m,1m,1m -o "$@"; }
 tabtxt --csv --columns class,radius,z,y,x grains.tab | txttab | bake csv.medium && bake tab.medium grains.tab
-for m in csv tab; do tail -c 1500 $m.medium | head -c -16 >$m.matter; done    # behind the history, before the checksum
+for m in csv tab; do tail -c 900 $m.medium | head -c -16 >$m.matter; done    # behind the history, before the checksum
 cmp csv.matter tab.matter >cmp.txt 2>&1
 ok $? 'particles of CSV make the same medium'
 
