@@ -57,7 +57,7 @@ ok $? 'an output may be the input'
 # ---- descriptors that are closed
 tabtxt t.tab -o f 2>&- && cmp -s f t.txt
 ok $? 'without standard error'
-speak() { mie-phase --particle 1.5 --size-parameter 20000 --tolerance 1e-2 --angles 3 --verbose -o "$1"; }
+speak() { mie-phase --particle 1.5 --size-parameter 20000 --tolerance 1e-2 --theta 0,90,180 --verbose -o "$1"; }
 speak quiet 2>err && speak f 2>&- && cmp -s f quiet
 is '0 1' "$? $(wc -l <err)" 'and what it would have got does not go into the output'
 tabtxt t.tab >&- 2>err
@@ -109,7 +109,7 @@ if [ $sanitized ]; then
 	skip 'little memory' 'the sanitizer has its own'
 else
 	export OMP_NUM_THREADS=1
-	hungry 'mie-phase --average' mie-phase --particle 1.5 --wavelength 550nm --average --direct --angles 11 large.tab
+	hungry 'mie-phase --average' mie-phase --particle 1.5 --wavelength 550nm --average --direct --theta 0,30,60,90,120,150,180 large.tab
 	hungry 'mie-phase' mie-phase --particle 1.5 --size-parameter 100000 --angles 3
 	hungry 'xsect' xsect --particle 1.5+0.01i --wavelength 550nm --method mie large.tab
 	hungry 'medium-bake' medium-bake --xsect one.xsect --phase hg.phase --psd one.psd --concentration 1/m3 --box 1m,1m,1m -o m
