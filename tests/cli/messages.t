@@ -92,7 +92,7 @@ is '0 medium-bake: b.xsect: is of another size distribution than the particles, 
 is '0 medium-bake: a.phase: is of other particles than the cross sections, it seems (--particle ice)' \
 	"$(fog --psd a.psd --xsect ice.xsect --phase a.phase)" 'ice and water'
 while read -r sizes cross phase; do
-	is '0 ' "$(fog --psd $sizes.psd --xsect $cross.xsect --phase $phase)" "nothing against $sizes, $cross, $phase"
+	is '0 ' "$(fog --psd "$sizes.psd" --xsect "$cross.xsect" --phase "$phase")" "nothing against $sizes, $cross, $phase"
 done <<'END'
 a a a.phase
 a a a.phases

@@ -92,7 +92,7 @@ int main(void)
 	map_test(1024, 512);
 
 	/* A texel alone, and one row. */
-	struct lights l = { .map_width = 1, .map_height = 1, .map_angle = (float)(4 * M_PI)};
+	struct lights l = { .map_width = 1, .map_height = 1, .map_angle = (float)(4 * M_PI), .map_pick = 1 };
 	struct scene s;
 	struct envmap one = { .width = 1, .height = 1, .rgb = (float[]){ 1, 2, 3 } };
 	struct tables t = { .map = one.rgb };

@@ -4,7 +4,7 @@
 
 #include "optics/mie/mie.h"
 
-/* rayleigh_error - estimate of the larger of the relative errors of ext and sca and the absolute error of g. */
+/* rayleigh_error - estimate of the largest of the relative errors of ext, sca and abs and the absolute error of g. */
 double rayleigh_error(double x, double complex m);
 
 /* rayleigh_efficiencies - electric dipole, magnetic dipole and electric quadrupole as series in x; the same to the last bit for sca and

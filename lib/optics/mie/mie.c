@@ -212,7 +212,7 @@ static double moved_of(double x, int n, const double complex *a, const double co
 {
 	double old = -sin(x), chi = cos(x), moved = 0;
 	for (int l = 1; l <= n && fabs(chi) < CHI_MAX; l++) {
-		double next = (2.0 * l - 1) / x * chi - old, reach = MIE_OFF * x * 6 * (l / x) * (l / x) * next * next;
+		double next = (2.0 * l - 1) / x * chi - old, reach = MIE_OFF * x * 3 * (l / x) * (l / x) * next * next;
 		old = chi;
 		chi = next;
 		double all = l >= x ? (2.0 * l + 1) * (norm2(a[l]) + norm2(b[l])) * reach * (1 + 4 * reach) : 0;
