@@ -49,6 +49,15 @@ static void thin(struct curves *c, double tolerance)
 	free(keep);
 }
 
+/* Angles of their own for size parameters up to x, of so many curves. */
+static long own_angles(const struct phase_options *o, double x, size_t curves)
+{
+	long n = angle_grid_fine(x, o->tolerance / 2, NULL);
+	if (n < 0 || (double)n * PHASE_ELEMENTS * (double)curves > ANGLE_GRID_MOST)
+		die(NULL, "the sizes want too many angles; choose them by --angles or --theta, or allow more by --tolerance");
+	return n;
+}
+
 /* Values at given angles, or at angles of their own. */
 static void settle(struct curves *c, const struct phase_options *o, long n, const double *theta)
 {
@@ -56,9 +65,7 @@ static void settle(struct curves *c, const struct phase_options *o, long n, cons
 	for (size_t i = 0; i < c->n; i++)
 		x = fmax(x, c->means[i]->x);
 	c->value = xalloc(c->n, sizeof *c->value);
-	c->angles = n ? n : angle_grid_fine(x, o->tolerance / 2, NULL);
-	if (c->angles < 0 || (double)c->angles * PHASE_ELEMENTS * (double)c->n > ANGLE_GRID_MOST)
-		die(NULL, "the sizes want too many angles; choose them by --angles or --theta, or allow more by --tolerance");
+	c->angles = n ? n : own_angles(o, x, c->n);
 	c->theta = xalloc((size_t)c->angles, sizeof *c->theta);
 	if (n)
 		memcpy(c->theta, theta, (size_t)n * sizeof *theta);
@@ -96,15 +103,22 @@ static void tell(const struct phase_options *o, const struct class_table *t, siz
 		warn("verbose", "means over %ld sizes in all; estimated error at most %.2g", sizes, error + open);
 }
 
+/* The largest size parameter of the table's rows and classes. */
+static double largest(const struct class_table *t)
+{
+	double x = 0;
+	for (size_t i = 0; i < t->n; i++) {
+		const struct class_row *row = &t->row[i];
+		double most = row->class < 0 ? 1 : t->class[row->class].hi / row->w.size.radius;
+		x = fmax(x, size_extent(&row->w.size) * most);
+	}
+	return x;
+}
+
 /* Angles for a model that is asked for given ones: those of the largest x. */
 static void given_angles(struct phase_means_request *r, double **own)
 {
-	double x = 0;
-	for (size_t i = 0; i < r->table->n; i++) {
-		const struct class_row *row = &r->table->row[i];
-		double most = row->class < 0 ? 1 : r->table->class[row->class].hi / row->w.size.radius;
-		x = fmax(x, size_extent(&row->w.size) * most);
-	}
+	double x = largest(r->table);
 	r->n = angle_grid_count(x);
 	r->theta = *own = xalloc((size_t)r->n, sizeof **own);
 	angle_grid(x, *own);
@@ -145,6 +159,8 @@ void ensemble_average_table(const struct phase_options *o, const struct class_ta
 	double *own = NULL;
 	if (!model->any_angles && !n)
 		given_angles(&r, &own);
+	else if (!n)
+		own_angles(o, largest(t), t->waves);      /* refused before the work */
 	struct phase_means **m = means_of(o, &r);
 	struct curves c = { .n = t->waves, .means = (const struct phase_means **)m, .group = xalloc(t->waves, sizeof *c.group) };
 	settle(&c, o, model->any_angles ? n : r.n, r.theta);
