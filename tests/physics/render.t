@@ -25,12 +25,12 @@ for t in explicit fat-ray grid continuous; do
 	near "$low" 1 1e-5 && near "$high" 1 1e-5
 	ok $? "furnace on white ground, $t: pixels from $low to $high"
 	# the same radiance as two suns that are half the sky each: drawn and met, weighed by multiple importance sampling; standard errors
-	# of up to 3e-4, so that light lost or made by more than 2e-3 is found but for 1 in 100
+	# of up to 2e-4, so that light lost or made by more than 1.2e-3 is found but for 1 in 100
 	scene suns.scene white-grains.medium 48 'lights = ( { type = "sun"; direction = [0.0, -1.0, 0.2]; irradiance = 3.14159265358979; angle = 180.0; },
 		{ type = "sun"; direction = [0.0, 1.0, -0.2]; irradiance = 3.14159265358979; angle = 180.0; } );'
-	vrender suns.scene --samples 400 --seed 1 --transport $t -o a.exr
-	vrender suns.scene --samples 400 --seed 2 --transport $t -o b.exr
-	agree "furnace of two hemispherical suns, $t" 1 0 4e-4 a.exr b.exr
+	vrender suns.scene --samples 900 --seed 1 --transport $t -o a.exr
+	vrender suns.scene --samples 900 --seed 2 --transport $t -o b.exr
+	agree "furnace of two hemispherical suns, $t" 1 0 2e-4 a.exr b.exr
 done
 
 # ---- known radiances: two independent programs agree on them
