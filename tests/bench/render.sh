@@ -173,7 +173,6 @@ for here in $scenes; do
 		ours "$here" vrender "c, MOTES_CPU=$path, $transport" --transport $transport
 	done
 	unset MOTES_CPU
-	ours "$here" vrender "c, $transport, 8 branches" --transport $transport --branches 8
 	vrender "$here.scene" --transport $transport --backend opencl --samples 1 -o warm.exr
 	ours "$here" vrender "opencl, $transport" --transport $transport --backend opencl
 	for v in $variants; do theirs "$here" "$v"; done

@@ -227,7 +227,7 @@ all="lights = ( { type = \"environment\"; radiance = [0.1, 0.2, 0.3]; }, { type 
 	ground = { height = -1.2; albedo = 0.4; };"
 scene all.scene three.medium 32 "$all"
 scene tiny.scene three.medium 4 "$all"
-same_bytes all.scene 8 tiny.scene --branches 3
+same_bytes all.scene 8 tiny.scene
 
 # ---- bad input in one line
 

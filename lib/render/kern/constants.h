@@ -15,7 +15,6 @@
 #define HAS_PEAK(v) ((v)->peak > 0.f)
 #define IS_ISOTROPIC(v) ((v)->isotropic)
 #define IS_COUNTED(v) ((v)->counted)
-#define BRANCHES (s->branches > 1)
 #define HAS_GROUND (s->surfaces.has_ground)
 #endif
 #ifndef CHANNELS

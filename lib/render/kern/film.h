@@ -76,7 +76,7 @@ FN mv film_values(const struct scene *s, struct path *p, mv m, fv *value)
 		fv last = p->rgb[c], none = p->before[0][c], once = p->before[1][c];
 		fv single = SEL(often, once, SEL(scattered, last, zero)), more = SEL(often, last, zero);
 		none = SEL(scattered, none, last);
-		if (HAS_PEAK(&s->volume) || BRANCHES) {
+		if (HAS_PEAK(&s->volume)) {
 			single += p->aside[0][c];
 			more += p->aside[1][c];
 		}

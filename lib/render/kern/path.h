@@ -7,7 +7,6 @@
 #define KERN_PATH_H
 
 #include "render/kern/nee.h"
-#include "render/kern/splitting.h"
 
 enum { DRAW_PIXEL_X, DRAW_PIXEL_Y, DRAW_HERO };
 
@@ -48,8 +47,6 @@ FN void path_begin(const struct scene *s, struct path *p, mv m, iv pixel, iv col
 		SET(m, p->aside[1][i], FV(0.f));
 		SET(m, p->alpha[i], FV(0.f));
 	}
-	SET(m, p->split.branch, unsigned_of(sample) * (uint32)s->branches);
-	SET(m, p->split.left, IV(0));
 	next_vertex(&p->random, m);
 }
 
@@ -183,7 +180,6 @@ FN mv path_arrive(const struct scene *s, const struct volume *v, const struct ta
 	PUT3(m, p->vertex.point, c.point);
 	PUT(m, p->vertex.class, c.class);
 	PUT(m, p->vertex.id, c.id);
-	mv first = hit & ieq(p->order, IV(0));
 	next_order(s, p, hit, c.t);
 	if (HAS_GROUND) {
 		struct vec floor = add(p->ray.from, scale(p->ray.along, p->t_end));
@@ -196,22 +192,18 @@ FN mv path_arrive(const struct scene *s, const struct volume *v, const struct ta
 		fv albedo = of_class(s, v, t->albedo, hit, p->vertex.class, p->waves, j);
 		PUT(m, p->weight[j], p->weight[j] * (HAS_GROUND ? SEL(hit, albedo, FV(s->surfaces.ground_albedo)) : albedo));
 	}
-	if (BRANCHES && any(first | p->split.again)) {
-		split_path(s, p, first);
-		m |= p->split.again;
-	}
 	if (s->lights.n)
 		nee_begin(s, v, t, p, m);
 	return over;
 }
 
-/* Roulette on the throughput of a branch: survival is certain above 1/4, and 4 times the throughput below, never less than it. */
+/* Roulette on the throughput: survival is certain above 1/4, and 4 times the throughput below, never less than it. */
 FN mv roulette(const struct scene *s, struct path *p, mv m)
 {
 	fv throughput = FV(0.f);
 	EACH_WAVE(j)
 		throughput = fv_max(throughput, p->weight[j] * PATH_PDF(p, j));
-	fv q = 4.f * (float)s->branches * (throughput * p->rare);
+	fv q = 4.f * (throughput * p->rare);
 	mv doubtful = m & lt(q, FV(1.f));
 	if (!any(doubtful))
 		return m;

@@ -81,11 +81,4 @@ FN void next_vertex(struct random *r, mv m)
 	SET(m, r->lattice, r->lattice * generator(EVEN));
 }
 
-/* From the vertex at hand on, lanes m draw the numbers of another sample of their pixel. */
-FN void another_sample(mv m, struct random *r, uv sample)
-{
-	SET(m, r->key, key_of(sample, r->shift));
-	SET(m, r->lattice, reversed(sample) * generator(EVEN));
-}
-
 #endif

@@ -67,8 +67,6 @@ FN void render_pixels(const struct scene *s, const struct tables *t, GLOBAL int6
 		leaving = live & NOT(p.flying | volume_going(v, &p.walk) | ended | (HAS_PEAK(v) ? p.chain.flying : NO_LANE));
 		ended |= path_depart(s, v, t, &p, leaving);
 		leaving &= NOT(ended);
-		if (BRANCHES)
-			ended = split_over(&p, ended);
 		live &= NOT(ended);
 		over |= ended;
 		fresh = NO_LANE;
