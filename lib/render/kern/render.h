@@ -57,9 +57,8 @@ FN void render_pixels(const struct scene *s, const struct tables *t, GLOBAL int6
 			path_begin(s, &p, fresh, work.at_pixel, work.at_column, work.at_row, work.at_sample);
 		live |= fresh;
 		path_fly(s, v, t, &p, fresh | leaving);
-		int paths = count(live), under_way;
-		while ((under_way = count(volume_going(v, &p.walk))) > 0 && paths - under_way < VERTEX_WAIT)
-			volume_step(s, v, t, &p.walk, p.waves, &p.walk_random);
+		int least = count(live) - VERTEX_WAIT;
+		volume_step(s, v, t, &p.walk, p.waves, &p.walk_random, least > 0 ? least : 0);
 		mv here = live & NOT(volume_going(v, &p.walk)), chained = HAS_PEAK(v) ? here & p.chain.flying : NO_LANE;
 		mv ended = path_arrive(s, v, t, &p, here & p.flying);
 		if (any(chained))
