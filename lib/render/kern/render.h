@@ -72,7 +72,7 @@ FN void render_pixels(const struct scene *s, const struct tables *t, GLOBAL int6
 		if (any(live) && count(over) < BEGIN_WAIT)
 			continue;
 		fv value[FILM_SUMS];
-		bad |= film_values(s, &p, over, value);
+		bad |= film_values(s, &p, over, work.at_sample, value);
 		EACH_LANE_OF(over, i)
 			square |= film_take(s, film + (int64)s->film_sums * LANE(work.at_pixel, i), &p, value, (int)i, &high);
 		fresh = work_take(s, &work, over);
