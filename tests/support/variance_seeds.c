@@ -1,5 +1,5 @@
-/* variance_seeds TRANSPORT FIRST SEEDS SCENE..: of each scene, for several ranges of samples: the mean of variance.Y over pixels and seeds over
- * the mean over pixels of the variance over seeds; used by variance.t. */
+/* variance_seeds TRANSPORT FIRST SEEDS SCENE..: of each scene, for several ranges of samples: the mean of variance.Y over pixels and
+ * seeds by the mean over pixels of the variance over seeds; used by variance.t. */
 #include "base/die.h"
 #include "medium/medium_file.h"
 #include "render/backend.h"

@@ -115,7 +115,8 @@ FN uint64 film_take(const struct scene *s, GLOBAL int64 *sum, const struct path 
 	*over |= film_add8(sum, n);
 	uint64 high = film_add_square(sum + SUM_SQUARE, PART(n, SUM_LUMINANCE));
 	if (CHANNELS == 3)
-		*over |= film_add8(sum + SUM_GREEN, film_integers(EIGHT(value + SUM_GREEN, LANE_FLOAT(value[SUM_ALPHA_RED], i), LANE_FLOAT(value[SUM_ALPHA_GREEN], i))));
+		*over |= film_add8(sum + SUM_GREEN, film_integers(EIGHT(value + SUM_GREEN, LANE_FLOAT(value[SUM_ALPHA_RED], i),
+		                                                        LANE_FLOAT(value[SUM_ALPHA_GREEN], i))));
 #undef EIGHT
 	for (int j = 0; SPECTRAL && j < LANE(p->waves.n, i); j++) {
 		GLOBAL int64 *own = sum + FILM_SUMS + LANE(p->waves.first, i) + s->n_groups * j;

@@ -15,7 +15,8 @@ FN void path_begin(const struct scene *s, struct path *p, mv m, iv pixel, iv col
 {
 	struct random random = random_of(s->seed, unsigned_of(pixel), unsigned_of(sample));
 	set_random(m, &p->random, random);
-	struct ray r = camera_ray(&s->camera, to_float(column) + draw(&p->random, DRAW_PIXEL_X), to_float(row) + draw(&p->random, DRAW_PIXEL_Y));
+	struct ray r = camera_ray(&s->camera, to_float(column) + draw(&p->random, DRAW_PIXEL_X),
+	                          to_float(row) + draw(&p->random, DRAW_PIXEL_Y));
 	set3(m, &p->ray.from, r.from);
 	set3(m, &p->ray.along, r.along);
 	set3(m, &p->ray.inverse, r.inverse);
@@ -108,14 +109,15 @@ FN void path_alpha(const struct scene *s, const struct tables *t, struct path *p
 	}
 }
 
-/* Where almost all of the camera's rays would pass the medium, chance makes black pixels and a few bright ones. There the first scattering is
- * forced: what is seen unscattered is taken in as it is, and the path goes on from a scattering with the weight that one has. Where that
- * weight is below FORCED_LEAST, chance decides once more, so that what is scattered does not vanish between the film's units. A ray that ends
- * at the ground, which lights it, is left to chance. */
+/* Where almost all of the camera's rays would pass the medium, chance makes black pixels and a few bright ones. There the first
+ * scattering is forced: what is seen unscattered is taken in as it is, and the path goes on from a scattering with the weight that one
+ * has. Where that weight is below FORCED_LEAST, chance decides once more, so that what is scattered does not vanish between the film's
+ * units. A ray that ends at the ground, which lights it, is left to chance. */
 #define FORCED_LEAST 0x1p-13f
 
 /* Paths m as they are unscattered: taken[] is what the medium took away from them, flight_pdf[] theirs as they are scattered. */
-FN void path_pass(const struct scene *s, const struct volume *v, const struct tables *t, struct path *p, mv m, fv *taken, fv *flight_pdf)
+FN void path_pass(const struct scene *s, const struct volume *v, const struct tables *t, struct path *p, mv m, fv *taken,
+                  fv *flight_pdf)
 {
 	fv depth[CARRIED];
 	volume_depth(s, v, t, &p->walk, m, p->waves, depth);
