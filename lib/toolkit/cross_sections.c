@@ -11,11 +11,11 @@
 
 void cross_sections_of(struct method_selection *selection, int n, struct waves *w, struct cross_section *out)
 {
-	struct sphere *sphere = xalloc((size_t)n, sizeof *sphere);
-	double *error = xalloc((size_t)n, sizeof *error);
-	struct efficiencies *q = xalloc((size_t)n, sizeof *q);
-	enum method *used = xalloc((size_t)n, sizeof *used);
-	int *of = xalloc((size_t)n, sizeof *of), many = 0, failed = 0;
+	struct sphere *sphere = xgrow(NULL, (size_t)n, sizeof *sphere);
+	double *error = xgrow(NULL, (size_t)n, sizeof *error);
+	struct efficiencies *q = xgrow(NULL, (size_t)n, sizeof *q);
+	enum method *used = xgrow(NULL, (size_t)n, sizeof *used);
+	int *of = xgrow(NULL, (size_t)n, sizeof *of), many = 0, failed = 0;
 	for (int i = 0; i < n; i++) {
 		if (w[i].a || w[i].size.x_im > 0)
 			continue;

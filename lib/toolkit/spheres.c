@@ -15,22 +15,29 @@ struct spheres {
 	struct sizes *sizes;                 /* one of the two */
 	struct coeffs *coeffs;
 	int ncarried, carried_col[TAB_COLS];
+	int weight_col;                      /* -1: none */
 	double x_max, area, area_x2;         /* of spheres_extent */
 };
+
+static struct spheres *open_input(const struct sizes_options *o, const char *operand)
+{
+	struct spheres *s = xalloc(1, sizeof *s);
+	s->table = sizes_input(o, operand);
+	s->weight_col = s->table ? tab_find(s->table, &column_weight) : -1;
+	return s;
+}
 
 struct spheres *spheres_open_sizes(const struct sizes_options *o, const char *operand)
 {
 	sizes_require(o);
-	struct spheres *s = xalloc(1, sizeof *s);
-	s->table = sizes_input(o, operand);
+	struct spheres *s = open_input(o, operand);
 	s->sizes = sizes_over(o, s->table);
 	return s;
 }
 
 struct spheres *spheres_open(const struct sizes_options *o, const char *operand)
 {
-	struct spheres *s = xalloc(1, sizeof *s);
-	s->table = sizes_input(o, operand);
+	struct spheres *s = open_input(o, operand);
 	if (!s->table || !coeffs_in(s->table)) {
 		s->sizes = sizes_over(o, s->table);
 		return s;
@@ -104,10 +111,9 @@ void spheres_carry(const struct spheres *s, const struct waves *w, double *row)
 static void add_extent(struct spheres *s, const struct size *size, const double *row)
 {
 	double x = size_extent(size), area = size->radius > 0 ? size->radius * size->radius : x * x;
-	for (int i = 0; row && i < tab_ncols(s->table); i++)
-		if (!strcmp(tab_cols(s->table)[i].name, column_weight.name))
-			area *= row[i];
-	s->x_max = fmax(s->x_max, x);
+	if (s->weight_col >= 0)
+		area *= row[s->weight_col];
+	s->x_max = x > s->x_max ? x : s->x_max;
 	s->area += area;
 	s->area_x2 += area * x * x;
 }

@@ -262,6 +262,37 @@ static void little_absorption(void)
 	ok(most < 1, "rayleigh: absorption within the estimate however little (%.2g of it)", most);
 }
 
+/* What cam.h says of absorption, with the mean of resonances. */
+static void absorption_of_large(void)
+{
+	enum { N = 4000 };
+	static const double complex index[] = { 1.33 + 1e-6 * I, 1.5 + 1e-6 * I, 1.33 + 1e-4 * I };
+	static double x[N], error[N];
+	static double complex m[N];
+	static struct efficiencies q[N];
+	for (int k = 0; k < 3; k++) {
+		void *own = method_table[METHOD_CAM].prepare(index[k]);
+		double all = 0, true_all = 0, share = 2 * pow(2.0 / 1000, 2.0 / 3);
+		int far = 0;
+		for (int i = 0; own && i < N; i++) {
+			x[i] = 1000 + 20.0 * i / N;
+			m[i] = index[k];
+			method_table[METHOD_CAM].extend(own, x[i]);
+		}
+		if (!own || mie_many(N, x, m, q, error))
+			exit(2);
+		for (int i = 0; i < N; i++) {
+			double abs = method_table[METHOD_CAM].efficiencies(&(struct sphere){ x[i], m[i] }, own, 0, &(double){ 0 }).abs;
+			all += abs;
+			true_all += q[i].abs;
+			far += fabs(abs / q[i].abs - 1) > share;
+		}
+		ok(fabs(all / true_all - 1) < 2e-3 && far < N / 10, "cam, m = %g + %.0ei: absorption over sizes to %.1e, of %d further than %.1e: %d",
+		   creal(index[k]), cimag(index[k]), fabs(all / true_all - 1), N, share, far);
+		method_table[METHOD_CAM].forget(own);
+	}
+}
+
 int main(int argc, char **argv)
 {
 	if (argc == 3 && !strcmp(argv[1], "--honest"))
@@ -284,6 +315,7 @@ int main(int argc, char **argv)
 		   k, s.n, s.worse, s.most, s.beyond, creal(s.m), cimag(s.m));
 	}
 	little_absorption();
+	absorption_of_large();
 	small();
 	large();
 	return done_testing();

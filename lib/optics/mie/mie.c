@@ -2,6 +2,7 @@
 
 #include "optics/numerics/lane_math.h"
 #include "optics/mie/mie_lanes.h"
+#include "optics/mie/mie_resonances.h"
 
 #include <float.h>
 #include <math.h>
@@ -32,7 +33,7 @@ int mie_terms(double x, double complex m)
 struct chunk {
 	double psi[1 + MIE_CHUNK + MIE_SPARE], chi[1 + MIE_CHUNK + MIE_SPARE], p[1 + MIE_CHUNK + MIE_SPARE];
 	double size[MIE_CHUNK + MIE_SPARE], re[MIE_CHUNK + MIE_SPARE], im[MIE_CHUNK + MIE_SPARE];
-	double wave[4][1 + MIE_CHUNK + MIE_SPARE], sca[MIE_CHUNK + MIE_SPARE], moved[MIE_CHUNK + MIE_SPARE];
+	double wave[4][1 + MIE_CHUNK + MIE_SPARE], sca[MIE_CHUNK + MIE_SPARE];
 };
 
 /* From so many terms on p is computed twice, the second time chunk by chunk: all of it would not fit into caches. */
@@ -102,8 +103,7 @@ static int by_orders(const struct mie_lanes *lanes, double x, double complex m, 
 		struct mie_row row = { .absorbs = s.absorb, .near = s.near, .first = l, .count = count, .weighted = weighted,
 			.x = x, .m_re = creal(m), .m_im = cimag(m), .beyond = e.beyond[0], .psi = c.psi, .chi = c.chi, .p = c.p,
 			.ex = e.x + l, .er = e.y_re + l, .ei = e.y_im + l, .size = e.p.size + at, .re = e.p.re + at, .im = e.p.im + at,
-			.a_re = c.wave[0] + 1, .a_im = c.wave[1] + 1, .b_re = c.wave[2] + 1, .b_im = c.wave[3] + 1, .sca = c.sca,
-			.moved = weighted && !s.near && x <= l + count - 1 ? c.moved : NULL };
+			.a_re = c.wave[0] + 1, .a_im = c.wave[1] + 1, .b_re = c.wave[2] + 1, .b_im = c.wave[3] + 1, .sca = c.sca };
 		lanes->waves(&row);
 		take(lanes, &row, context);
 		for (int i = 0; i < 4; i++)
@@ -141,7 +141,7 @@ int mie_one(const struct mie_lanes *lanes, double x, double complex m, int n, st
 	struct mie_sums sums = { 0 };
 	int bad = by_orders(lanes, x, m, n, 1, take_sums, &sums);
 	*q = mie_sums_efficiencies(x, cimag(m) == 0, &sums);
-	*error = mie_sums_error(x, cimag(m) == 0, n, &sums);
+	*error = mie_sums_error(x, cimag(m) == 0, &sums);
 	return bad;
 }
 
@@ -168,16 +168,14 @@ struct efficiencies mie_sums_efficiencies(double x, int lossless, const struct m
 	return q;
 }
 
-double mie_sums_error(double x, int lossless, int terms, const struct mie_sums *s)
+double mie_sums_error(double x, int lossless, const struct mie_sums *s)
 {
 	/* The largest coefficient is about (4/9) |m-1| x^3 where x is small, |m-1| x where it is large and m near 1; of all, the sum of
 	 * (2l+1) |a|^2 tells: 3 |a_1|^2 or about x^2 times the largest. */
 	double volume = 4.0 / 9 * x * x * x, full = (volume < 1 ? volume : 1) * (x > 1 ? x : 1);
 	double sca = lossless ? s->ext : s->sca, flat = full / sqrt(sca / (x * x > 3 ? x * x : 3));
-	/* What moves coefficients counts twice in the sums, but no more than one wave altogether; in small sums by the root of theirs, since
-	 * squares sum up. */
-	double moved = 2 * fmin(sqrt(s->moved), 2.0 * terms + 1) / fmax(sca, sqrt(sca));
-	return fmax(2 * DBL_EPSILON * (10 + x + (flat > 1 ? flat : 1)), moved);
+	double error = 2 * DBL_EPSILON * (10 + x + s->broad + (flat > 1 ? flat : 1));
+	return s->moved > error * sca ? s->moved / sca : error;
 }
 
 void mie_sums_of(int lossless, int n, const double complex *a, const double complex *b, struct mie_sums *sums)
@@ -206,28 +204,13 @@ void mie_sums_of(int lossless, int n, const double complex *a, const double comp
 	}
 }
 
-/* struct mie_sums' moved, where m is not known: C = 0 where A is 1/chi_l, of whatever m, so |a_l'| is |a_l|^2 chi_l^2 times a factor of about
- * m^2, or some times l^2/x^2. */
-static double moved_of(double x, int n, const double complex *a, const double complex *b)
-{
-	double old = -sin(x), chi = cos(x), moved = 0;
-	for (int l = 1; l <= n && fabs(chi) < CHI_MAX; l++) {
-		double next = (2.0 * l - 1) / x * chi - old, reach = MIE_OFF * x * 3 * (l / x) * (l / x) * next * next;
-		old = chi;
-		chi = next;
-		double all = l >= x ? (2.0 * l + 1) * (norm2(a[l]) + norm2(b[l])) * reach * (1 + 4 * reach) : 0;
-		moved += all * all;
-	}
-	return moved;
-}
-
 struct efficiencies mie_efficiencies(double x, int lossless, int n, const double complex *a, const double complex *b, double *error)
 {
 	struct mie_sums sums;
 	mie_sums_of(lossless, n, a, b, &sums);
 	if (error) {
-		sums.moved = moved_of(x, n, a, b);
-		*error = mie_sums_error(x, lossless, n, &sums);
+		sums.moved = mie_resonances_rough(x, n, a, b);
+		*error = mie_sums_error(x, lossless, &sums);
 	}
 	return mie_sums_efficiencies(x, lossless, &sums);
 }

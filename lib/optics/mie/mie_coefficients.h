@@ -18,23 +18,12 @@
  * From |y| on, E in place of D removes the terms (l+1)/z which cancel in b_l where z is small, so that no separate series is needed there.
  *
  * Where m is near 1, A is small: f - psi_{l-1}/psi_l = d_l/m + E_l(x) (1/m - 1) + (l+1)/x (1/m^2 - 1), for b_l m d_l + E_l(x) (m - 1), with
- * d_l = E_l(y) - E_l(x) by its own recurrence d_{l-1} = [(2l+1)/y - (2l+1)/x + d_l] E_{l-1}(x) E_{l-1}(y), has the digits of m - 1.
- *
- * Resonances. By the differential equation of psi and chi, and their Wronskian,
- *
- *     |da_l/dx| = |1 - 1/m^2| |D_l(y)^2 + l(l+1)/x^2| / |A - iC|^2,    |db_l/dx| = |m^2 - 1| / |A - iC|^2,
- *
- * |A - iC|^2 the denominator above. On a resonance, x < l < |m| x, C = 0, whence A = 1/chi_l and D_l(y)^2/m^2 = l^2/x^2 - 1 about: both are
- * |m^2 - 1| chi_l^2 |a_l|^2 or up to |m|^2 times that, for which |m| + 1/|m| stands. That is small apart from resonances; there what rounding
- * does to x and m counts for more than all other rounding. Where it moves C by more than C, the whole of a_l is open: by 4 chi_l^2 times
- * the move. */
+ * d_l = E_l(y) - E_l(x) by its own recurrence d_{l-1} = [(2l+1)/y - (2l+1)/x + d_l] E_{l-1}(x) E_{l-1}(y), has the digits of m - 1. */
 #ifndef OPTICS_MIE_COEFFICIENTS_H
 #define OPTICS_MIE_COEFFICIENTS_H
 
 #include "optics/mie/mie_downward.h"
 #include "optics/mie/mie_upward.h"
-
-#define CHI_MAX 1e120    /* beyond, a_l and b_l are below 1e-240 and chi^2 would overflow */
 
 /* What came downward to an order, of a vector: as in struct downward_orders. */
 struct downward {
@@ -42,9 +31,9 @@ struct downward {
 };
 
 /* What is known of a vector's spheres, at the orders at hand, when this is compiled: absorb, near as of struct spheres; some has l >= x,
- * l >= |y|. */
+ * l >= |y|; some may have a narrow resonance. */
 struct regime {
-	int absorb, near, from_x, from_y;
+	int absorb, near, from_x, from_y, narrow;
 };
 
 /* f of a_l and b_l, less (2l+1)/x, from E. */
@@ -151,10 +140,10 @@ INLINE struct parts parts_of(struct regime is, const struct constants *g, vec l,
 	return p;
 }
 
-/* a_l, b_l times a weight: [0] real part, [1] imaginary part; sca: weight (|a_l|^2 + |b_l|^2), absorbing spheres only; moved: square of
- * weight times how far rounding of x and m may move a_l and b_l, from order x on, else 0. */
+/* a_l, b_l times a weight: [0] real part, [1] imaginary part; sca: weight (|a_l|^2 + |b_l|^2), absorbing spheres only; chi2: chi_l^2, where
+ * some l >= x. */
 struct coefficients_of_order {
-	vec a[2], b[2], sca, moved;
+	vec a[2], b[2], sca, chi2;
 };
 
 INLINE void coefficients_of(struct regime is, const struct constants *g, vec l, vec weight, const struct upward *k,
@@ -191,20 +180,14 @@ INLINE void coefficients_of(struct regime is, const struct constants *g, vec l, 
 	}
 	if (!is.from_x)
 		return;
-	vec chi2 = k->chi * k->chi;
-	truths good = (g->terms >= l) & (chi2 <= CHI_MAX * CHI_MAX);
-	if (!is.near)
-		chi2 = PICK(good & (g->x <= l), chi2, each(0));
-	for (int i = 0; i < 2; i++) {
-		out->a[i] = PICK(good, out->a[i], each(0));
-		out->b[i] = PICK(good, out->b[i], each(0));
-	}
+	out->chi2 = k->chi * k->chi;
+	truths good = (g->terms >= l) & (out->chi2 <= CHI_MAX * CHI_MAX);
+	out->a[0] = PICK(good, out->a[0], each(0));
+	out->a[1] = PICK(good, out->a[1], each(0));
+	out->b[0] = PICK(good, out->b[0], each(0));
+	out->b[1] = PICK(good, out->b[1], each(0));
 	if (is.absorb)
 		out->sca = PICK(good, out->sca, each(0));
-	if (!is.near) {
-		vec squares = is.absorb ? out->sca : out->a[0] + out->b[0], t = squares * chi2 * (g->reach + g->missed * chi2);
-		out->moved = t * t;
-	}
 }
 
 #endif

@@ -135,7 +135,7 @@ struct efficiencies mie_host_efficiencies(double complex x, int n, const double 
 	out.abs = out.ext - out.sca;
 	if (error) {
 		struct mie_sums as_real = { .sca = out.sca * x2 / 2 };
-		*error = mie_sums_error(sqrt(x2), 0, n, &as_real) * fmax(1, (bulk_re * fabs(re) + bulk_im * im) / fabs(ext));
+		*error = mie_sums_error(sqrt(x2), 0, &as_real) * fmax(1, (bulk_re * fabs(re) + bulk_im * im) / fabs(ext));
 	}
 	return out;
 }

@@ -4,6 +4,7 @@
 #define UNROLL 4
 #include "optics/mie/mie_coefficients.h"
 
+#include <math.h>
 #include <string.h>
 
 /* ------------------------------------------------------------------ sums */
@@ -21,7 +22,7 @@ INLINE void weights(double first, vec w[WEIGHTS])
 	w[CROSS] = 1.0 / (l * (l + 1.0) * w[W]);
 }
 
-enum { EXT, SCA, ASYM, BACK_RE, BACK_IM, MOVED, SUMS };
+enum { EXT, SCA, ASYM, BACK_RE, BACK_IM, SUMS };
 
 /* What an order adds, but for scattering; old: the order before. */
 INLINE void addends(const vec w[WEIGHTS], const vec *a, const vec *b, const vec *old_a, const vec *old_b, vec t[SUMS])
@@ -35,18 +36,51 @@ INLINE void addends(const vec w[WEIGHTS], const vec *a, const vec *b, const vec 
 
 /* ------------------------------------------------------------------ many spheres */
 
-/* Orders [from, to] of a vector of spheres. */
-struct many {
+static int least_of(int a, int b) { return a < b ? a : b; }
+static int most_of(int a, int b) { return a > b ? a : b; }
+
+/* A vector of spheres: what does not change with the order, and what seldom does. */
+struct vector {
 	struct constants g;
+	struct resonances resonances;
+	double moved[LANES];       /* struct mie_sums */
+};
+
+struct many {
 	struct upward k;
 	vec sum[SUMS], old_a[2], old_b[2];
 };
 
-INLINE void orders(struct many *many, const struct downward_orders *e, int u, const double *const w[WEIGHTS], struct regime is, int from,
-                   int to)
+/* An order of a vector: coefficients, those of the order before, and sum[EXT] with it. */
+struct order {
+	vec a[2], b[2], old_a[2], old_b[2], chi_old, chi, share, ext;
+};
+
+/* What order l of those spheres may be off for which it counts. */
+static void __attribute__((noinline)) on_resonance(struct vector *v, int l, const struct order *o)
+{
+	const struct constants *g = &v->g;
+	truths counts = (o->share > v->resonances.from * o->ext) & (g->x <= (double)l) & (g->beyond > (double)l);
+	for (int i = 0; i < LANES; i++) {
+		if (!LANE(&counts, i))
+			continue;
+		struct mie_wave w = { l, { LANE(&o->a[0], i), LANE(&o->a[1], i) }, { LANE(&o->b[0], i), LANE(&o->b[1], i) },
+			{ LANE(&o->old_a[0], i), LANE(&o->old_a[1], i) }, { LANE(&o->old_b[0], i), LANE(&o->old_b[1], i) },
+			LANE(&o->chi_old, i), LANE(&o->chi, i) };
+		v->moved[i] += mie_resonance(LANE(&g->x, i), CMPLX(LANE(&g->m_re, i), LANE(&g->m_im, i)), &w);
+	}
+}
+
+/* Orders [from, to]. */
+INLINE void orders(struct vector *v, struct many *many, const struct downward_orders *e, int u, const double *const w[WEIGHTS],
+                   struct regime is, int from, int to)
 {
 	const int with_p = !is.absorb && !is.near;
+	if (from > to)
+		return;
+	const struct constants g = v->g;
 	struct many m = *many;
+	const vec least = v->resonances.from * m.sum[EXT];    /* the sum grows: more than counts is looked at, none is missed */
 	for (int l = from; l <= to; l++) {
 		int i = l * UNROLL + u;
 		struct downward f;
@@ -65,8 +99,8 @@ INLINE void orders(struct many *many, const struct downward_orders *e, int u, co
 			f.re = e->p.re[i];
 			f.im = e->p.im[i];
 		}
-		upward_to(&m.k, &m.g, with_p, w[L][l], w[W][l - 1], is.from_x, is.from_x ? e->x[i - UNROLL] : each(0));
-		coefficients_of(is, &m.g, weight[L], weight[W], &m.k, &f, &own);
+		upward_to(&m.k, &g, with_p, w[L][l], w[W][l - 1], is.from_x, is.from_x ? e->x[i - UNROLL] : each(0));
+		coefficients_of(is, &g, weight[L], weight[W], &m.k, &f, &own);
 		addends(weight, own.a, own.b, m.old_a, m.old_b, t);
 		m.sum[EXT] += t[EXT];
 		m.sum[ASYM] += t[ASYM];
@@ -74,12 +108,18 @@ INLINE void orders(struct many *many, const struct downward_orders *e, int u, co
 		m.sum[BACK_IM] = t[BACK_IM] - m.sum[BACK_IM];
 		if (is.absorb)
 			m.sum[SCA] += own.sca;
-		if (is.from_x && !is.near)
-			m.sum[MOVED] += own.moved;
-		for (int c = 0; c < 2; c++) {
-			m.old_a[c] = own.a[c];
-			m.old_b[c] = own.b[c];
+		if (is.narrow) {
+			vec share = (is.absorb ? own.sca : t[EXT]) * own.chi2;
+			if (__builtin_expect(any_above(share, least), 0)) {
+				const struct order o = { { own.a[0], own.a[1] }, { own.b[0], own.b[1] }, { m.old_a[0], m.old_a[1] },
+					{ m.old_b[0], m.old_b[1] }, m.k.chi_old, m.k.chi, share, m.sum[EXT] };
+				on_resonance(v, l, &o);
+			}
 		}
+		m.old_a[0] = own.a[0];
+		m.old_a[1] = own.a[1];
+		m.old_b[0] = own.b[0];
+		m.old_b[1] = own.b[1];
 	}
 	*many = m;
 }
@@ -96,21 +136,31 @@ INLINE void spheres(struct mie_block *b, int first, const double *const w[WEIGHT
 	}
 	struct downward_orders e = downward_all(&s, (vec *)b->room, NULL);
 	for (int u = 0; u < UNROLL; u++) {
-		struct many m = { .g = constants_of(absorb, s.x[u], s.m_re[u], s.m_im[u], e.beyond[u], s.terms[u]) };
-		m.k = upward_start(&m.g, !absorb && !near);
-		int x = e.from_x, y = near ? s.most + 1 : e.from_y, low = x < y ? x : y, high = x < y ? y : x;
-		orders(&m, &e, u, w, (struct regime){ absorb, near, 0, 0 }, 1, low - 1);
-		if (x < y)
-			orders(&m, &e, u, w, (struct regime){ absorb, near, 1, 0 }, low, high - 1);
-		else if (!near)
-			orders(&m, &e, u, w, (struct regime){ absorb, near, 0, 1 }, low, high - 1);
-		if (!near)
-			orders(&m, &e, u, w, (struct regime){ absorb, near, 1, 1 }, high, s.most);
+		struct vector v = { .g = constants_of(absorb, s.x[u], s.m_re[u], s.m_im[u], e.beyond[u], s.terms[u]) };
+		v.resonances = resonances_of(absorb, &v.g);
+		struct many m = { .k = upward_start(&v.g, !absorb && !near) };
+		int x = e.from_x, y = near ? s.most + 1 : e.from_y, low = x < y ? x : y, high = x < y ? y : x, narrow = 0;
+		for (int i = 0; i < LANES; i++) {
+			double beyond = LANE(&v.g.beyond, i);
+			if (LANE(&v.resonances.from, i) < INFINITY && beyond > narrow)
+				narrow = beyond < s.most + 1 ? (int)beyond - 1 : s.most;
+		}
+		orders(&v, &m, &e, u, w, (struct regime){ absorb, near, 0, 0, 0 }, 1, low - 1);
+		if (x < y) {
+			orders(&v, &m, &e, u, w, (struct regime){ absorb, near, 1, 0, 1 }, low, least_of(narrow, high - 1));
+			orders(&v, &m, &e, u, w, (struct regime){ absorb, near, 1, 0, 0 }, most_of(low, narrow + 1), high - 1);
+		} else if (!near) {
+			orders(&v, &m, &e, u, w, (struct regime){ absorb, near, 0, 1, 0 }, low, high - 1);
+		}
+		if (!near) {
+			orders(&v, &m, &e, u, w, (struct regime){ absorb, near, 1, 1, 1 }, high, least_of(narrow, s.most));
+			orders(&v, &m, &e, u, w, (struct regime){ absorb, near, 1, 1, 0 }, most_of(high, narrow + 1), s.most);
+		}
 		for (int i = 0; i < LANES; i++) {
 			vec *q = m.sum;
 			b->sums[first + u * LANES + i] = (struct mie_sums){ .ext = LANE(&q[EXT], i), .sca = LANE(&q[SCA], i),
-				.asym = LANE(&q[ASYM], i), .back_re = LANE(&q[BACK_RE], i), .back_im = LANE(&q[BACK_IM], i),
-				.moved = LANE(&q[MOVED], i) };
+				.asym = LANE(&q[ASYM], i), .back_re = LANE(&q[BACK_RE], i), .back_im = LANE(&q[BACK_IM], i), .moved = v.moved[i],
+				.broad = LANE(&v.resonances.broad, i) };
 		}
 	}
 }
@@ -186,8 +236,6 @@ INLINE void row(const struct mie_row *r, struct regime is)
 		store(r->b_im + i, own.b[1]);
 		if (is.absorb)
 			store(r->sca + i, own.sca);
-		if (is.from_x && !is.near && r->moved)
-			store(r->moved + i, own.moved);
 	}
 }
 
@@ -195,13 +243,13 @@ INLINE void row_of(const struct mie_row *r, int absorb, int near)
 {
 	int last = r->first + r->count - 1, from_x = r->x <= last, from_y = !near && r->beyond <= last;
 	if (from_x && from_y)
-		row(r, (struct regime){ absorb, near, 1, 1 });
+		row(r, (struct regime){ absorb, near, 1, 1, 0 });
 	else if (from_x)
-		row(r, (struct regime){ absorb, near, 1, 0 });
+		row(r, (struct regime){ absorb, near, 1, 0, 0 });
 	else if (from_y)
-		row(r, (struct regime){ absorb, near, 0, 1 });
+		row(r, (struct regime){ absorb, near, 0, 1, 0 });
 	else
-		row(r, (struct regime){ absorb, near, 0, 0 });
+		row(r, (struct regime){ absorb, near, 0, 0, 0 });
 }
 
 static void waves_of_one(const struct mie_row *r)
@@ -216,22 +264,38 @@ static void waves_of_one(const struct mie_row *r)
 		row_of(r, 0, 0);
 }
 
-/* One order after the other, as in a block. */
-INLINE struct mie_sums sum(int count, double (*t)[MIE_CHUNK + MIE_SPARE], const double *sca, struct mie_sums s)
+/* What the order at i of a row may be off. */
+static double resonance(const struct mie_row *r, int i)
 {
-	for (int i = 0; i < count; i++) {
+	double l = r->first + i;
+	struct mie_wave w = { .l = r->first + i, .a = { r->a_re[i], r->a_im[i] }, .b = { r->b_re[i], r->b_im[i] },
+		.old_a = { r->a_re[i - 1], r->a_im[i - 1] }, .old_b = { r->b_re[i - 1], r->b_im[i - 1] },
+		.chi_old = r->chi[i], .chi = r->chi[i + 1] };
+	return l < r->x || l >= r->beyond ? 0 : mie_resonance(r->x, CMPLX(r->m_re, r->m_im), &w);
+}
+
+/* One order after the other, as in a block. */
+INLINE struct mie_sums sum(const struct mie_row *r, double (*t)[MIE_CHUNK + MIE_SPARE], int absorbs, int narrow, double from,
+                         struct mie_sums s)
+{
+	for (int i = 0; i < r->count; i++) {
 		s.ext += t[EXT][i];
 		s.asym += t[ASYM][i];
 		s.back_re = t[BACK_RE][i] - s.back_re;
 		s.back_im = t[BACK_IM][i] - s.back_im;
-		if (sca)
-			s.sca += sca[i];
+		if (absorbs)
+			s.sca += r->sca[i];
+		if (narrow && (absorbs ? r->sca[i] : t[EXT][i]) * (r->chi[i + 1] * r->chi[i + 1]) > from * s.ext)
+			s.moved += resonance(r, i);
 	}
 	return s;
 }
 
 static void sums_of_one(const struct mie_row *r, struct mie_sums *sums)
 {
+	const struct constants g = constants_of(r->absorbs, each(r->x), each(r->m_re), each(r->m_im), each(r->beyond), each(INFINITY));
+	const struct resonances resonances = resonances_of(r->absorbs, &g);
+	double from = LANE(&resonances.from, 0);
 	double t[SUMS][MIE_CHUNK + MIE_SPARE];
 	for (int i = 0; i < r->count; i += LANES) {
 		const vec old_a[2] = { load(r->a_re + i - 1), load(r->a_im + i - 1) };
@@ -245,9 +309,12 @@ static void sums_of_one(const struct mie_row *r, struct mie_sums *sums)
 		store(&t[BACK_RE][i], own[BACK_RE]);
 		store(&t[BACK_IM][i], own[BACK_IM]);
 	}
-	*sums = r->absorbs ? sum(r->count, t, r->sca, *sums) : sum(r->count, t, NULL, *sums);
-	for (int i = 0; r->moved && i < r->count; i++)
-		sums->moved += r->moved[i];
+	sums->broad = LANE(&resonances.broad, 0);
+	int narrow = from < INFINITY && r->first + r->count > r->x && r->first < r->beyond;
+	if (r->absorbs)
+		*sums = narrow ? sum(r, t, 1, 1, from, *sums) : sum(r, t, 1, 0, 0, *sums);
+	else
+		*sums = narrow ? sum(r, t, 0, 1, from, *sums) : sum(r, t, 0, 0, 0, *sums);
 }
 
 /* ------------------------------------------------------------------ many angles */

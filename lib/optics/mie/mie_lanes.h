@@ -9,10 +9,9 @@
 #include "base/cpu.h"
 #include "optics/mie/mie.h"
 
-#include <float.h>
 #include <stddef.h>
 
-#define MIE_OFF (0.75 * DBL_EPSILON)    /* relative error of x that does what rounding of x and m and of the recurrences does */
+#define CHI_MAX 1e120          /* beyond, a_l and b_l are below 1e-240 and chi^2 would overflow: they count as 0 */
 #define MIE_NEAR 0.005         /* |m - 1| below which coefficients are taken from differences */
 
 static inline int mie_near(double complex m)
@@ -25,7 +24,8 @@ struct mie_sums {
 	double ext, sca;           /* sum (2l+1) Re(a + b), (2l+1) (|a|^2 + |b|^2) */
 	double asym;               /* sum l(l+2)/(l+1) Re(a_l a*_(l+1) + b_l b*_(l+1)) + (2l+1)/(l(l+1)) Re(a_l b*_l) */
 	double back_re, back_im;   /* sum (-1)^l (2l+1) (a - b), but for the sign */
-	double moved;              /* sum of the squares of (2l+1) times how far rounding may move a and b: narrow resonances */
+	double moved;              /* how far rounding may move these on narrow resonances */
+	double broad;              /* what it does on broad ones, as an error relative to ext in units of 2 DBL_EPSILON */
 };
 
 /* Of coefficients a[n+1], b[n+1]; lossless: sca is not taken. */
@@ -33,7 +33,7 @@ void mie_sums_of(int lossless, int n, const double complex *a, const double comp
 
 /* Efficiencies, and the estimate of their error, of sums at size parameter x. */
 struct efficiencies mie_sums_efficiencies(double x, int lossless, const struct mie_sums *s);
-double mie_sums_error(double x, int lossless, int terms, const struct mie_sums *s);
+double mie_sums_error(double x, int lossless, const struct mie_sums *s);
 
 struct mie_block {
 	int absorbs, near;         /* some Im m > 0, else m_im is not looked at; all |m - 1| < MIE_NEAR */
@@ -58,7 +58,6 @@ struct mie_row {
 	const double *ex, *er, *ei, *size, *re, *im;
 	double *a_re, *a_im, *b_re, *b_im;    /* before them stand those of first - 1, or 0 */
 	double *sca;                          /* (|a|^2 + |b|^2) times as much, absorbing spheres only */
-	double *moved;                        /* as struct mie_sums has it; NULL: not asked for */
 };
 
 #define MIE_ANGLES 32
@@ -80,7 +79,8 @@ struct mie_lanes {
 	void (*block)(struct mie_block *b);
 	/* coefficients of a row, from psi .. im */
 	void (*waves)(const struct mie_row *r);
-	/* sums += those of a row, from its weighted coefficients, in order: the same bits as in a block */
+	/* sums += those of a row, from its weighted coefficients, in order: the same bits as in a block. For moved and broad from x .. beyond and
+	 * chi, too; x = 0: without these */
 	void (*sums)(const struct mie_row *r, struct mie_sums *sums);
 	/* Sums over l of s_l (pi_l + tau_l)/l and d_l (pi_l - tau_l)/l at MIE_ANGLES angles in [0, 90] deg given by c = 1 - cos theta.
 	 * Given:    k[n], the next orders; sides: with the factors for angles in front, for those behind, or first with these, then with those;

@@ -36,7 +36,7 @@ static int together(const struct mie_lanes *lanes, const struct item *item, int 
 	for (int i = 0; i < n; i++) {
 		int at = item[i].at;
 		q[at] = mie_sums_efficiencies(x[at], !b.absorbs, &b.sums[i]);
-		error[at] = mie_sums_error(x[at], !b.absorbs, b.terms[i], &b.sums[i]);
+		error[at] = mie_sums_error(x[at], !b.absorbs, &b.sums[i]);
 	}
 	free(b.room);
 	return 0;

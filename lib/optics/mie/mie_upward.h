@@ -3,6 +3,7 @@
 #ifndef OPTICS_MIE_UPWARD_H
 #define OPTICS_MIE_UPWARD_H
 
+#include "optics/mie/mie_resonances.h"
 #include "optics/numerics/vec_sincos.h"
 
 /* What does not change with the order, of a vector of spheres. */
@@ -11,8 +12,17 @@ struct constants {
 	vec inv_re, inv_im, norm, less;      /* 1/m, |m|^2, Re 1/m - 1 */
 	vec c_re, c_im;                      /* (1 - 1/m^2)/x */
 	vec cm_re, cm_im;                    /* |m|^2 times that */
-	vec reach, missed;                   /* h |m^2 - 1| (|m| + 1/|m|), 4 h |m^2 - 1| times that: h, what x is off */
 };
+
+/* What is known of resonances before the coefficients; see mie_resonances.h. */
+struct resonances {
+	/* an order counts beside all other rounding, being 3/2 of it or more, where (2l+1) (|a_l|^2 + |b_l|^2) chi_l^2, over the sum of (2l+1) Re(a + b) so far, is above;
+	 * INFINITY where none can: |m| x is too small, or absorption makes none narrow */
+	vec from;
+	vec broad;                           /* struct mie_sums; these stand below x where m is large */
+};
+
+#define LOWEST 2.5                           /* |m| x of the lowest one is above */
 
 INLINE struct constants constants_of(int absorb, vec x, vec m_re, vec m_im, vec beyond, vec terms)
 {
@@ -27,20 +37,28 @@ INLINE struct constants constants_of(int absorb, vec x, vec m_re, vec m_im, vec 
 		g.cm_re = g.c_re * m2;
 		g.cm_im = g.c_im * m2;
 		g.less = (m_re * (1.0 - m_re) - m_im * m_im) / m2;
-		g.reach = size_of((m_re - 1.0) * (m_re + 1.0) - m_im * m_im) + 2.0 * (m_re * m_im);
-		g.missed = size_of(vr) + size_of(vi);
 	} else {
 		g.inv_re = 1.0 / m_re;
 		g.inv_im = g.c_im = g.cm_re = g.cm_im = g.norm = each(0);
 		g.c_re = (m_re - 1.0) * (m_re + 1.0) * (g.inv_re * g.inv_re) * g.inv_x;
 		g.less = (1.0 - m_re) * g.inv_re;
-		g.reach = size_of((m_re - 1.0) * (m_re + 1.0));
-		g.missed = g.inv_re;
 	}
-	vec moved = MIE_OFF * x * g.reach;
-	g.reach = moved * (1.0 / g.missed + g.missed);
-	g.missed = 4.0 * moved * g.reach;
 	return g;
+}
+
+INLINE struct resonances resonances_of(int absorb, const struct constants *g)
+{
+	struct resonances r;
+	vec x = g->x, mr = g->m_re, y = mr * x, contrast = size_of((mr - 1.0) * (mr + 1.0));
+	truths none = (mr <= 1.0) | (y < LOWEST);
+	if (absorb) {
+		vec absorbed = g->m_im * x * (10.0 + x);
+		contrast += g->m_im * (2.0 * mr + g->m_im);
+		none |= (absorbed > 4.0 * mr);
+	}
+	r.broad = PICK(none | (x <= 1.0), each(0), 0.75 * contrast);
+	r.from = PICK(none, each(INFINITY), 3.0 / (MIE_OFF / DBL_EPSILON) * (10.0 + x + r.broad) / (contrast * x));
+	return r;
 }
 
 /* Riccati-Bessel functions of two neighbouring orders, old is l - 1; p, of y, where it ascends, and p_{l-1}/m. */
