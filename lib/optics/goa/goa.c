@@ -49,16 +49,23 @@ static void amplitudes(const struct goa *g, const struct goa_rays *r, double x, 
 	}
 }
 
+static int level_of(double x) { return (int)fmin(fmax(ceil(log2(x)), 0), GRIDS - 1); }
+
+int goa_reach(struct goa *g, double x)
+{
+	int level = level_of(x);
+	struct goa_norm_grid *grid = &g->grid[level];
+	return grid->rays.blocks.n ? 0 : goa_norm_grid_new(g->m, g->order, g->caustic, ldexp(1, level), grid);
+}
+
 /* goa_norm_grid_sum, negative when memory ran out. */
 static double integral(struct goa *g, int interfere, double x, double *along)
 {
-	int level = (int)fmin(fmax(ceil(log2(x)), 0), GRIDS - 1);
-	struct goa_norm_grid *grid = &g->grid[level];
 	struct goa_cap cap[GOA_ORDER_MAX + 1];
-	if (!grid->rays.blocks.n && goa_norm_grid_new(g->m, g->order, g->caustic, ldexp(1, level), grid))
+	if (goa_reach(g, x))
 		return -1;
 	caps(g, x, cap);
-	return goa_norm_grid_sum(g->lanes, grid, interfere, x, cap, along);
+	return goa_norm_grid_sum(g->lanes, &g->grid[level_of(x)], interfere, x, cap, along);
 }
 
 struct goa *goa_new(double complex m, int order)

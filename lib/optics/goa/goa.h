@@ -50,6 +50,10 @@ void goa_at(const struct goa *g, double x, double complex *s1, double complex *s
  * depends on size by the diffraction lobe, the caps and absorption alone. Returns 0, or -1 when memory ran out. */
 int goa_incoherent(struct goa *g, double x, double *i1, double *i2, double *norm);
 
+/* goa_reach - have beforehand what goa_measure and goa_incoherent find of a size: several threads may then ask these for it at once.
+ * Returns 0, or -1 when memory ran out. */
+int goa_reach(struct goa *g, double x);
+
 /* goa_measure - goa_efficiencies and goa_norm at once. Returns 0, or -1 when memory ran out (all is 0 then, *error infinite). */
 int goa_measure(struct goa *g, double x, struct efficiencies *q, double *norm, double *error);
 
