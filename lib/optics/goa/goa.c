@@ -135,6 +135,31 @@ int goa_incoherent(struct goa *g, double x, double *i1, double *i2, double *norm
 	return 0;
 }
 
+int goa_blurred(struct goa *g, double x, double fastest, double *i1, double *i2)
+{
+	struct goa_cap cap[GOA_ORDER_MAX + 1];
+	const struct goa_rays *r = &g->asked;
+	const size_t *first = r->blocks.first;
+	size_t most = 0;
+	for (int b = 0; b < angle_blocks_count(r->blocks.n); b++)
+		most = first[b + 1] - first[b] > most ? first[b + 1] - first[b] : most;
+	double (*room)[GOA_WIDTH] = malloc((most + 1) * sizeof *room);
+	if (!room)
+		return -1;
+	caps(g, x, cap);
+	for (int b = 0, from = 0; from < r->blocks.n; b++, from += GOA_WIDTH) {
+		double s[2][GOA_WIDTH], d[GOA_WIDTH];
+		g->lanes->diffraction(&r->angles[b], x, d);
+		g->lanes->blurred(&r->packet[first[b]], first[b + 1] - first[b], &r->angles[b], d, x, cap, fastest * M_2_PI, room, s);
+		for (int i = 0; i < GOA_WIDTH && from + i < r->blocks.n; i++) {
+			i1[from + i] = fmax(s[0][i], 0);
+			i2[from + i] = fmax(s[1][i], 0);
+		}
+	}
+	free(room);
+	return 0;
+}
+
 int goa_amplitudes(double x, double complex m, int order, int n, const double *theta, double complex *s1, double complex *s2)
 {
 	struct goa *g = goa_new(m, order);
