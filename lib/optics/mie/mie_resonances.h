@@ -18,6 +18,8 @@
 
 #define MIE_OFF (1.25 * DBL_EPSILON)    /* relative error of x that does what rounding of x, of m and of the recurrences does */
 
+#define MIE_RESONANCES_FROM 3           /* in DBL_EPSILON (10 + x), what an order moves that counts: 3/2 of other rounding */
+
 /* Order l of a sphere; coefficients times 2l+1, re and im, and those of the order before times 2l-1. */
 struct mie_wave {
 	int l;
