@@ -172,9 +172,9 @@ CHARTS = $(patsubst tests/bench/%.sh,%,$(wildcard tests/bench/chart-*.sh))
 BENCHES = $(filter-out $(RENDER_BENCHES) $(MIE_BENCHES) $(XSECT_BENCHES) $(CHARTS),$(patsubst tests/bench/%.sh,%,$(wildcard tests/bench/*.sh)))
 bench: programs $(CHECKS:%=$(B)/tests/%) $(B)/tests/bench/goa
 	PATH="$(CURDIR)/$(B)/bin:$$PATH" MOTES_TESTS="$(CURDIR)/$(B)/tests" sh tests/bench/run $(B)/bench $(BENCHES)
-bench-render: programs
+bench-render: programs $(B)/tests/support/block_means
 	sh tests/bench/mitsuba-venv $(B)/mitsuba-venv
-	PATH="$(CURDIR)/$(B)/bin:$$PATH" MOTES_MITSUBA="$(CURDIR)/$(B)/mitsuba-venv" sh tests/bench/run $(B)/bench $(RENDER_BENCHES)
+	PATH="$(CURDIR)/$(B)/bin:$(CURDIR)/$(B)/tests/support:$$PATH" MOTES_MITSUBA="$(CURDIR)/$(B)/mitsuba-venv" sh tests/bench/run $(B)/bench $(RENDER_BENCHES)
 # Lorenz-Mie theory beside the codes that PyPI has, and beside a textbook's loop.
 bench-mie: programs
 	sh tests/bench/mie-venv $(B)/mie-venv

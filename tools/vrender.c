@@ -93,13 +93,12 @@ static void check_camera(const char *path, const struct scenefile *f, const stru
 int main(int argc, char **argv)
 {
 	const char *output = NULL, *part = NULL;
-	long long samples = 0, from = 0, to = 0, seed = 1, branches = 1, threads = sysconf(_SC_NPROCESSORS_ONLN), device = -1;
+	long long samples = 0, from = 0, to = 0, seed = 1, threads = sysconf(_SC_NPROCESSORS_ONLN), device = -1;
 	int transport = -1, attenuation = 0, backend = 0, list = 0, verbose = 0, spectral = 0;
 	const struct opt opts[] = {
 		{ "-o", OPT_FILE, &output, 0, 0, "FILE.exr", "the image", 1 },
 		{ "--samples", OPT_INT, &samples, 1, IMAGE_SAMPLES, "N", "paths a pixel; default: 64", 1 },
 		{ "--sample-range", OPT_TEXT, &part, 0, 0, "A:B", "render samples A to B - 1 only, for exr-merge", 1 },
-		{ "--branches", OPT_INT, &branches, 1, 64, "K", "ways that a path takes from where the medium first scatters it; default: 1", 0 },
 		{ "--seed", OPT_INT, &seed, 0, 4294967295.0, "S", "of the random numbers", 0 },
 		{ "--transport", OPT_CHOICE, &transport, 0, 0, "explicit|fat-ray|grid|continuous", "model of the medium; default: explicit for particles, grid for a density that varies", 0 },
 		{ "--attenuation", OPT_CHOICE, &attenuation, 0, 0, "product|exponential", "of fat rays; exponential is biased", 0 },
@@ -149,8 +148,8 @@ int main(int argc, char **argv)
 		die("--attenuation", "exponential goes with --transport fat-ray");
 	if (spectral && medium->n_waves > IMAGE_WAVES)
 		die("--spectral", "the medium has %d wavelengths; an image has room for %d", medium->n_waves, IMAGE_WAVES);
-	const struct render_options options = { .transport = transport, .attenuation = attenuation, .branches = (int)branches,
-		.spectral = spectral, .seed = (uint32)seed };
+	const struct render_options options = { .transport = transport, .attenuation = attenuation, .spectral = spectral,
+		.seed = (uint32)seed };
 	if (transport == TRANSPORT_EXPLICIT || transport == TRANSPORT_FAT_RAY)
 		check_camera(path, &file, medium);
 	setup_make(&setup, &file, medium, &options);

@@ -111,8 +111,8 @@ static char *options_for(const struct cl *c, const struct scene *s, cl_device_id
 		snprintf(parts, sizeof parts, " -DCHUNK_SHIFT=%d", shift);
 	const char *exact = rounding & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT ? " -cl-fp32-correctly-rounded-divide-sqrt" : "";
 	return xtext("-cl-std=CL1.2%s -DLANES=%d -DTRANSPORT=%d%s -DPEAK=%d -DCHANNELS=%d -DSPECTRAL=%d -DHAS_GROUND=%d -DALL_ISOTROPIC=%d"
-	             " -DCOUNTED=%d -DBRANCHES=%d -DCHUNKS=%d%s", exact, (int)c->lanes, v->transport, waves, v->peak > 0, s->channels, s->spectral,
-	             s->surfaces.has_ground, v->isotropic, v->counted, s->branches > 1, chunks, parts);
+	             " -DCOUNTED=%d -DCHUNKS=%d%s", exact, (int)c->lanes, v->transport, waves, v->peak > 0, s->channels, s->spectral,
+	             s->surfaces.has_ground, v->isotropic, v->counted, chunks, parts);
 }
 
 static void set(struct cl *c, cl_uint arg, size_t size, const void *value)

@@ -4,6 +4,7 @@
 #include "format/tab.h"
 #include "base/unit.h"
 #include "render/kern/film.h"
+#include "render/variance.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +12,7 @@
 #include <string.h>
 
 /* Names of the sums. */
-static const char *const names[FILM_SUMS] = { "R", "single.R", "multiple.R", "A", "depth.Z", "Y", "AB", NULL, "YY0", "YY1",
+static const char *const names[FILM_SUMS] = { "R", "single.R", "multiple.R", "A", "depth.Z", "Y", "AB", "second.Y", "YY0", "YY1",
 	"G", "single.G", "multiple.G", "B", "single.B", "multiple.B", "AR", "AG" };
 
 /* Those of a spectral image, each for all wavelengths, are named by these and the wavelength. */
@@ -22,14 +23,12 @@ static const int finished[] = { SUM_OF(SUM_ALL, 0), SUM_OF(SUM_ALL, 1), SUM_OF(S
 	SUM_OF(SUM_SINGLE, 2), SUM_OF(SUM_MULTIPLE, 0), SUM_OF(SUM_MULTIPLE, 1), SUM_OF(SUM_MULTIPLE, 2), SUM_ALPHA, SUM_ALPHA_RED,
 	SUM_ALPHA_GREEN, SUM_ALPHA_BLUE };
 
-typedef unsigned __int128 uint128;
-
 static size_t pixels(const struct image *m)
 {
 	return (size_t)m->width * (size_t)m->height;
 }
 
-static long long samples(const struct image *m)
+long long image_samples(const struct image *m)
 {
 	long long n = 0;
 	for (int i = 0; i < m->n_ranges; i++)
@@ -141,19 +140,7 @@ void image_of(struct image *out, const struct scene *s, const struct film *f, co
 
 /* -------------------------------------------------------------------- finished layers */
 
-/* Variance of the mean of n samples, from their sum and the sum of their squares: about a whole number near the mean, in
- * integers, so that nothing cancels. 0 of a single sample. */
-static double variance(const int64 *sum, long long n)
-{
-	int64 y = sum[SUM_LUMINANCE], mean = y / n, rest = y - mean * n;
-	uint128 squares = (uint128)(uint64)sum[SUM_SQUARE + 1] << 64 | (uint64)sum[SUM_SQUARE];
-	squares += (uint128)n * (uint128)((__int128)mean * mean) - 2 * (uint128)((__int128)mean * y);    /* modulo 2^128 */
-	double spread = (double)squares - (double)rest * (double)rest / (double)n;
-	return n > 1 && spread > 0 ? spread / ((double)n * (double)(n - 1)) / (FILM_UNIT * FILM_UNIT) : 0;
-}
-
-/* The sums of a pixel; room[n_sums]. */
-static const int64 *sums_of(const struct image *m, size_t pixel, int64 *room)
+const int64 *image_sums(const struct image *m, size_t pixel, int64 *room)
 {
 	if (!m->film)
 		return m->sum + pixel * (size_t)m->n_sums;
@@ -170,22 +157,22 @@ static int in_use(const struct image *m, int sum)
 static void layers(struct exr *e, const struct image *m)
 {
 	enum { N = sizeof finished / sizeof *finished };
-	long long n = samples(m);
+	long long n = image_samples(m);
 	float **out = xalloc(N + (size_t)m->n_spectral, sizeof *out);
 	int64 *room = xalloc((size_t)m->n_sums, sizeof *room);
 	for (int k = 0; k < N; k++)
 		out[k] = in_use(m, finished[k]) ? exr_add(e, names[finished[k]]) : NULL;
 	for (int w = 0; w < m->n_spectral; w++)
 		out[N + w] = exr_add(e, m->wave[w]);
-	float *depth = exr_add(e, "depth.Z"), *spread = exr_add(e, "variance.Y"), *count = exr_add(e, "count");
+	float *depth = exr_add(e, "depth.Z"), *variance = exr_add(e, "variance.Y"), *count = exr_add(e, "count");
 	e->channel[e->n - 1].is_uint = 1;
+	variance_of(m, variance);
 	for (size_t i = 0; i < pixels(m); i++) {
-		const int64 *sum = sums_of(m, i, room);
+		const int64 *sum = image_sums(m, i, room);
 		for (int k = 0; k < N + m->n_spectral; k++)
 			if (out[k])
 				out[k][i] = (float)((double)sum[k < N ? finished[k] : FILM_SUMS + k - N] / FILM_UNIT / (double)n);
 		depth[i] = sum[SUM_ALPHA] ? (float)ldexp((double)sum[SUM_DEPTH] / (double)sum[SUM_ALPHA], m->depth_exponent) : 0;
-		spread[i] = (float)variance(sum, n);
 		memcpy(&count[i], &(uint32_t){ (uint32_t)n }, 4);
 	}
 	free(out);
@@ -212,7 +199,7 @@ static void put_sums(struct exr *e, const struct image *m)
 		free(name);
 	}
 	for (size_t i = 0; i < pixels(m); i++) {
-		const int64 *sum = sums_of(m, i, room);
+		const int64 *sum = image_sums(m, i, room);
 		for (int k = 0; k < 2 * m->n_sums; k++)
 			if (out[k])
 				memcpy(&out[k][i], &(uint32_t){ (uint32_t)((uint64)sum[k / 2] >> (k % 2 ? 32 : 0)) }, 4);
@@ -281,7 +268,7 @@ void image_read(const char *path, struct image *m)
 			die(path, "damaged image: a sum is out of range");
 	const struct exr_channel *count = exr_find(&e, "count");
 	for (size_t i = 0; i < pixels(m); i++)
-		if (!count || !count->is_uint || memcmp(&count->data[i], &(uint32_t){ (uint32_t)samples(m) }, 4))
+		if (!count || !count->is_uint || memcmp(&count->data[i], &(uint32_t){ (uint32_t)image_samples(m) }, 4))
 			die(path, "damaged image: its count is not that of its sampleRange");
 	exr_free(&e);
 }
@@ -324,7 +311,7 @@ void image_write(struct out *out, const struct image *m, int sums)
 	e.history = xtext("%s", m->history);
 	if (!sums && !m->total) {    /* as if made in one go */
 		free(e.history);
-		e.history = xtext("%.*s --samples %lld\n", (int)strlen(m->history) - 1, m->history, samples(m));
+		e.history = xtext("%.*s --samples %lld\n", (int)strlen(m->history) - 1, m->history, image_samples(m));
 	}
 	layers(&e, m);
 	if (m->n_spectral) {

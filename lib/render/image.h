@@ -43,6 +43,10 @@ void image_read(const char *path, struct image *out);
  * or the sum is out of range. */
 void image_merge(struct image *into, const struct image *more, const char *path);
 
+/* image_samples - of a pixel. image_sums - a pixel's, as kern/film.h has them; room[n_sums] may hold them. */
+long long image_samples(const struct image *m);
+const int64 *image_sums(const struct image *m, size_t pixel, int64 *room);
+
 /* image_whole - can the samples be a whole image: from 0 on without a gap, as many as there are to be where that is known? image_complete -
  * are they all of an image whose number of samples is known, so that none can be added? */
 int image_whole(const struct image *m);

@@ -68,8 +68,6 @@ void setup_make(struct setup *u, const struct scenefile *file, const struct medi
 	s->seed = options->seed;
 	s->volume.transport = options->transport;
 	s->volume.attenuation = options->attenuation;
-	s->branches = options->branches;
-	s->branch_share = 1 / (float)options->branches;
 	s->n_waves = medium->n_waves;
 	s->n_groups = (medium->n_waves + MAX_WAVES - 1) / MAX_WAVES;
 	s->carried = (medium->n_waves + s->n_groups - 1) / s->n_groups;

@@ -30,7 +30,7 @@ struct setup {
 /* How to render a scene: see the kernels' scene.h. */
 struct render_options {
 	int transport, attenuation;
-	int branches, spectral;
+	int spectral;
 	uint32 seed;
 };
 

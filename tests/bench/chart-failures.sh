@@ -1,6 +1,6 @@
 # shellcheck shell=sh
 # Where each method fails: extinction of every method over size, with the region where GOA's is negative, and a rainbow and a glory close up.
-# usage, by tests/bench/run: chart-failures.sh OUT
+# usage, by tests/bench/run: chart-failures.sh OUT; CHART_STEPS, of sizes in the chart of extinction, make it shorter
 out=$1
 bench=$(cd "$(dirname "$0")" && pwd)
 # shellcheck source=tests/bench/chart
@@ -9,7 +9,7 @@ m=1.33
 methods='mie goa cam evans-fournier rayleigh'
 # x, then Q_ext by each of the methods
 for method in $methods; do
-	xsect --method "$method" --particle $m --size-parameter 0.01:1e4:1200 2>err | tabtxt --columns x,q_ext | sed 1d >"$method.txt"
+	xsect --method "$method" --particle $m --size-parameter "0.01:1e4:${CHART_STEPS:-1200}" 2>err | tabtxt --columns x,q_ext | sed 1d >"$method.txt"
 done
 {
 	printf '# x\tQ_ext by %s\n' "$methods"

@@ -15,7 +15,7 @@
 # 0.36437 +- 0.00006 and 0.2837 +- 0.0003, found the same by two independent programs.
 #
 # Prints render.tsv, lines PASS or FAIL, and draws render.png and .svg.
-# usage, by tests/bench/run: [MOTES_MITSUBA=VENV] [BENCH_SECONDS=4]
+# usage, by tests/bench/run, with tests/support/block_means on the PATH: [MOTES_MITSUBA=VENV] [BENCH_SECONDS=4]
 #        [BENCH_SCENES='isotropic c1 cloud sparse'] render.sh OUT
 out=$1
 bench=$(cd "$(dirname "$0")" && pwd)
@@ -133,7 +133,7 @@ agree() {
 	jobs | awk -F'\t' -v name="$name" -v t="$seconds" '$1 == name { for (i = 1; i <= 2; i++) print $2, 5 * t "s", 2 + i, "m." i ".pfm" }' |
 		mitsuba "$variant" "$1.mitsuba" >times.txt
 	for i in 1 2; do oiiotool m.$i.pfm -d float -o m.$i.exr; done
-	blocks m G 32 >m.blocks
+	blocks m G >m.blocks
 	against block m.blocks ref.blocks >agree.lines
 	awk -F'\t' -v s="$1" -v best="$(cat best)" '
 		$1 == "whole" { theirs = $3; ours = $2; z = ($3 - $2) / $4; next }
@@ -159,7 +159,7 @@ for here in $scenes; do
 	for i in 1 2; do oiiotool ref.$i.exr --ch G -d float -o ref.$i.exr; done
 	oiiotool ref.1.exr ref.2.exr --add --mulc 0.5 -d float -o ref.exr
 	own=$(imgcmp --channels G --rms 99 ref.1.exr ref.2.exr | awk '$1 == "G" { print $3 / 4 }')
-	blocks ref G 32 >ref.blocks
+	blocks ref G >ref.blocks
 	awk '{ m += $1; v += $2 } END { printf "%.6f %.2g\n", m / NR, sqrt(v) / NR }' ref.blocks >mean.txt
 	read -r mean error <mean.txt
 	echo "$here: reference of 2 x $samples samples, mean $mean +- $error, its own relMSE $own"
@@ -173,7 +173,6 @@ for here in $scenes; do
 		ours "$here" vrender "c, MOTES_CPU=$path, $transport" --transport $transport
 	done
 	unset MOTES_CPU
-	ours "$here" vrender "c, $transport, 8 branches" --transport $transport --branches 8
 	vrender "$here.scene" --transport $transport --backend opencl --samples 1 -o warm.exr
 	ours "$here" vrender "opencl, $transport" --transport $transport --backend opencl
 	for v in $variants; do theirs "$here" "$v"; done

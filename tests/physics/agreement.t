@@ -18,7 +18,7 @@ for m in particles continuous constant; do
 	sed "s/grains.medium/$m.medium/" grains.scene >$m.scene
 	[ $m = continuous ] && t=continuous || t=grid
 	twice $m $m.scene $seed --samples 8 --transport "$t"
-	blocks $m G 32 >$m.blocks
+	blocks $m G >$m.blocks
 	rm $m.medium
 	seed=$((seed + 2))
 done

@@ -5,8 +5,6 @@
 # shellcheck source=tests/support/render.sh
 . "$top/tests/support/render.sh"
 
-average() { oiiotool "$1" --ch "$2" --mulc 1e4 -d float -o layer.exr && oiiotool --stats layer.exr | awk '$1 == "Stats" && $2 == "Avg:" { printf "%.8g\n", $3 / 1e4 }'; }
-
 # ---- a cloud of 4,000 grains about the origin, in a corner of it, and in coordinates of a map: no box is given
 
 hg 0 0.55 >iso.phase
@@ -31,7 +29,7 @@ placed map 5e5 4.5e6 100
 for t in explicit fat-ray grid continuous; do
 	for p in origin corner map; do
 		vrender $p.scene --transport $t --samples 32 -o $p.exr
-		for c in A G single.G depth.Z; do average $p.exr $c; done | paste -s - >$p.txt
+		channels mean $p.exr A G single.G depth.Z >$p.txt
 	done
 	# the same random numbers: what differs are rays that rounding puts on the other side of a disc's edge
 	paste origin.txt corner.txt map.txt | awk '{ for (i = 1; i <= 4; i++) for (k = 4; k <= 8; k += 4) {
@@ -55,7 +53,7 @@ for t in continuous grid explicit; do
 			printf "medium = { file = \"%s\"; }; lights = ( { type = \"sun\"; direction = [-1, 0, 0]; irradiance = 3; } );\n", m }' |
 			sed 's/e+\([0-9]*\)\.0/e+\1/g' >far.scene
 		vrender far.scene --transport $t --samples 64 -o far.exr
-		echo $d "$(average far.exr A)" "$(average far.exr G)" "$(average far.exr depth.Z)"
+		echo "$d $(channels mean far.exr A G depth.Z)"
 	done >far.txt
 	# 64^2 x 16 coins of A, standard error 1.5e-3; radiance spreads less. A float of the depth is 6e-8 of it at best
 	awk 'NR == 1 { a = $2; g = $3; below = $4 - 1000 } { da = $2 - a; dg = $3 / g - 1; dz = ($4 - $1 - below) / (1e-7 * $1 + 0.02)

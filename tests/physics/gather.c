@@ -45,8 +45,7 @@ static struct volume_walk walk(const struct cube *q, struct ray r, float t_end, 
 	struct volume_walk g;
 	memset(&g, 0, sizeof g);
 	volume_begin(&q->scene, v, &q->tables, &g, ALL_LANES, r, t_end, flight, three, random);
-	while (any(volume_going(v, &g)))
-		volume_step(&q->scene, v, &q->tables, &g, three, random);
+	volume_step(&q->scene, v, &q->tables, &g, three, random, 0);
 	return g;
 }
 

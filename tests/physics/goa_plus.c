@@ -12,8 +12,8 @@ static double uniform(void)
 	return (double)(state >> 11) * 0x1p-53;
 }
 
-/* L1 of a large sphere by one random angle in each of many intervals, which is right in the mean however fast p oscillates. Near the
- * axes they are 1/(2 x) wide, and grow with the distance. */
+/* L1 of a sphere by one random angle in each of many intervals, which is right in the mean however fast p oscillates, and off by 2 % rms up
+ * to x = 1000. Near the axes they are 1/(2 x) wide, and grow with the distance. */
 static double sampled(double x, double complex m)
 {
 	enum { MOST = 2000 };
@@ -21,7 +21,7 @@ static double sampled(double x, double complex m)
 	static double complex s1[MOST], s2[MOST], g1[MOST], g2[MOST];
 	int n = 0;
 	for (double from = 0, to; from < M_PI / 2; from = to) {
-		to = fmin(from + fmin(fmax(0.5 / x, from / 25), M_PI / 400), M_PI / 2);
+		to = fmin(from + fmin(fmax(0.5 / x, from / 25), fmax(M_PI / 400, 0.25 / x)), M_PI / 2);
 		for (int back = 0; back < 2; back++) {
 			double t = from + (to - from) * uniform();
 			theta[n] = back ? 180 - t * (180 / M_PI) : t * (180 / M_PI);
@@ -39,10 +39,8 @@ static double sampled(double x, double complex m)
 	return l1;
 }
 
-static double on_grid(double x, double complex m) { return compare(x, m, -1).l1; }
-
 /* Of random spheres, x log-uniform, how many are worse than goa_plus_error says, and the worst ratio of the two. */
-static int exceeded(int n, double x_min, double x_max, double n_max, double (*l1)(double x, double complex m), double *worst)
+static int exceeded(int n, double x_min, double x_max, double n_max, double *worst)
 {
 	int many = 0;
 	*worst = 0;
@@ -52,7 +50,7 @@ static int exceeded(int n, double x_min, double x_max, double n_max, double (*l1
 			u[i] = uniform();
 		double x = x_min * pow(x_max / x_min, u[0]);
 		double complex m = CMPLX(0.4 + (n_max - 0.4) * u[1], u[2] < 0.5 ? 0 : pow(10, -5 + 5 * u[3]));
-		double ratio = l1(x, m) / goa_plus_error(x, m);
+		double ratio = sampled(x, m) / goa_plus_error(x, m);
 		many += ratio > 1;
 		*worst = fmax(*worst, ratio);
 	}
@@ -68,7 +66,7 @@ int main(void)
 		{ 2.0, 1000.49, 1e-3 }, { 1.05, 1000.49, 1e-4 }, { 0.75 + 0.001 * I, 3000.3, 3e-4 },
 		{ 1.7 + 1 * I, 300.3, 2e-4 },
 	};
-	enum { ROWS = sizeof row / sizeof *row, RANDOM = 200, LARGE = 100 };
+	enum { ROWS = sizeof row / sizeof *row, RANDOM = 400, LARGE = 100 };
 	for (int k = 0; k < ROWS; k++) {
 		struct compared c = compare(row[k].x, row[k].m, -1);
 		double complex m = row[k].m;
@@ -78,11 +76,11 @@ int main(void)
 		ok(fabs(c.ext) < 2e-3 && fabs(c.abs) < 5e-3, "extinction within %.1e, absorption within %.1e", c.ext, c.abs);
 	}
 	double worst;
-	int many = exceeded(RANDOM, 1, 1000, 2.8, on_grid, &worst);
+	int many = exceeded(RANDOM, 1, 1000, 2.8, &worst);
 	ok(100 * many <= RANDOM && worst < 10,
 	   "of %d random spheres %d are worse than estimated, %.2f times that at most", RANDOM, many, worst);
 	/* where mie-phase takes it at 20 to 2000 angles */
-	many = exceeded(LARGE, 1e4, 1e5, 6, sampled, &worst);
+	many = exceeded(LARGE, 1e4, 1e5, 6, &worst);
 	ok(100 * many <= LARGE && worst < 2, "of %d large ones %d, %.2f times at most", LARGE, many, worst);
 	return done_testing();
 }

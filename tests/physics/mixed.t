@@ -53,7 +53,7 @@ seed=1
 for t in continuous grid explicit; do
 	for name in $scenes; do
 		twice "$name" "$name.scene" $seed --samples 16 --transport $t
-		blocks "$name" single.G 16 >"$name.blocks"
+		blocks "$name" single.G >"$name.blocks"
 		cp "$name.blocks" "$name-$t.blocks"
 		seed=$((seed + 2))
 	done
@@ -65,7 +65,7 @@ for t in continuous grid explicit; do
 done
 for k in one two three; do
 	twice $k-alone $k-alone.scene $seed --samples 16
-	blocks $k-alone single.G 16 >$k-alone.blocks
+	blocks $k-alone single.G >$k-alone.blocks
 	seed=$((seed + 2))
 	against "class $k" $k-continuous.blocks $k-alone.blocks | zs 6 4.3 >told
 	ok $? "continuous: a class of the mixture and it alone, $(cat told)"

@@ -122,7 +122,7 @@ int main(void)
 		{ "power 8, 10nm to 1mm", { PSD_POWER, 8, 0, 0.01, 1000 } },
 		{ "power -3, 10nm to 1mm", { PSD_POWER, -3, 0, 0.01, 1000 } },
 	};
-	static const int counts[] = { 1, 2, 3, 4, 7, 16, 33, 1000 };
+	static const int counts[] = { 1, 2, 3, 4, 7, 16, 33, 400 };
 	enum { N = sizeof all / sizeof *all, C = sizeof counts / sizeof *counts };
 	for (int i = 0; i < N; i++) {
 		double min, max;

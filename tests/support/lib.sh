@@ -1,12 +1,12 @@
 # shellcheck shell=sh
 # TAP for plain sh. A test sources this, reports with ok, is and refused, and ends with done_testing: one that dies before has no plan,
 # and prove fails it. So it does where a test was told in a subshell, which does not count.
-# The programs under test are first on the PATH; the test is in $tmp, a folder of its own.
+# The programs under test are first on the PATH, then those that tests share; the test is in $tmp, a folder of its own.
 set -u
 : "${MOTES_BUILD:=build}"
 top=$(cd "$(dirname "$0")/../.." && pwd)
 case $MOTES_BUILD in /*) ;; *) MOTES_BUILD=$top/$MOTES_BUILD ;; esac
-PATH=$MOTES_BUILD/bin:$PATH
+PATH=$MOTES_BUILD/bin:$MOTES_BUILD/tests/support:$PATH
 # shellcheck disable=SC2034
 data=$top/tests/data
 tmp=$(mktemp -d)

@@ -214,13 +214,8 @@ twice() {
 	shift 3
 	for s in 1 2; do vrender "$scene" --seed $((seed + s - 1)) "$@" -o "$name.$s.exr"; done
 }
-# blocks NAME CHANNEL SIDE: for each of SIDE x SIDE blocks of 8 x 8 pixels the mean and its variance
-blocks() {
-	oiiotool "$1.1.exr" --ch "$2" "$1.2.exr" --ch "$2" --add --mulc 0.5 --resize:filter=box "$3x$3" -d float -o mean.exr \
-		"$1.1.exr" --ch "$2" "$1.2.exr" --ch "$2" --sub --dup --mul --mulc 0.00390625 --resize:filter=box "$3x$3" -d float -o variance.exr
-	oiiotool --dumpdata mean.exr | awk '/Pixel/ { print $NF }' >means
-	oiiotool --dumpdata variance.exr | awk '/Pixel/ { print $NF }' | paste means -
-}
+# blocks NAME CHANNEL: for each block of 8 x 8 pixels the mean and its variance
+blocks() { block_means "$1.1.exr" "$1.2.exr" "$2"; }
 # against NAME FILE..: lines for zs: the blocks of the first FILE against the sums of those of the others; then their sum as "whole"
 against() {
 	name=$1

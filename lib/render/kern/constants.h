@@ -15,26 +15,24 @@
 #define HAS_PEAK(v) ((v)->peak > 0.f)
 #define IS_ISOTROPIC(v) ((v)->isotropic)
 #define IS_COUNTED(v) ((v)->counted)
-#define BRANCHES (s->branches > 1)
 #define HAS_GROUND (s->surfaces.has_ground)
 #endif
 #ifndef CHANNELS
 #define CHANNELS (s->channels)
 #define SPECTRAL (s->spectral)
 #endif
-/* A medium of several wavelengths, whose alpha has a colour, too. */
-#if defined WAVES && WAVES == 1
-#define COLOURED 0
-#else
-#define COLOURED (s->n_waves > 1)
-#endif
 #ifdef WAVES
+#define N_WAVES WAVES
 #define CARRIED WAVES
 #define EACH_WAVE(j) EACH(j, WAVES)
 #else
+#define N_WAVES (s->n_waves)
 #define CARRIED MAX_WAVES
 #define EACH_WAVE(j) for (int j = 0; j < s->carried; j++)
 #endif
+
+/* A medium of several wavelengths, whose alpha has a colour, too. */
+#define COLOURED (N_WAVES > 1)
 
 /* Where rays take steps, or chains of scatterings by a peak, lanes wait for each other, and what concerns a vertex must be kept for
  * those that do. */

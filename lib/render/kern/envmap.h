@@ -13,10 +13,11 @@ FN fv texel_angle(const struct lights *l, iv row)
 	return sn * l->map_angle;
 }
 
-/* Width of an interval of a CDF in units of 2^-31. */
+/* Width of an interval of a CDF in units of 2^-31. All of it, 2^31, is no signed number: one less is, and the same float. */
 FN fv cdf_width(INTS cdf, mv m, iv i)
 {
-	return to_float(signed_of(unsigned_of(igather(m, cdf, i + 1)) - unsigned_of(igather(m, cdf, i))));
+	uv width = unsigned_of(igather(m, cdf, i + 1)) - unsigned_of(igather(m, cdf, i));
+	return to_float(signed_of(width - (width >> 31)));
 }
 
 /* Pdf of drawing a direction in a texel, sr^-1. */

@@ -8,7 +8,7 @@
 #define FILM_UNIT 1073741824.0     /* 2^30 */
 
 /* The sums of a pixel, added eight at a time: all that one channel needs, red, comes first; then the square, apart from them since
- * it is added by itself; then green and blue. The gaps are free. */
+ * it is added by itself; then green and blue. */
 enum {
 	SUM_ALL,                   /* the two below and what was seen unscattered */
 	SUM_SINGLE,                /* scattered once by the medium */
@@ -17,6 +17,7 @@ enum {
 	SUM_DEPTH,                 /* how far away, times the former, in units of 2^-30 / depth_scale */
 	SUM_LUMINANCE,
 	SUM_ALPHA_BLUE,            /* what a coloured medium takes away from white light behind it, by channels */
+	SUM_SECOND,                /* luminance of the second replicate's samples, see random.h */
 	SUM_SQUARE = 8,            /* of luminance: 128 bits, low half first, in units of 2^-60 */
 	SUM_GREEN = 10,            /* all, single, multiple; then blue */
 	SUM_ALPHA_RED = 16,
@@ -67,7 +68,7 @@ FN mv film_clamp(mv m, fv *value)
 
 /* What the paths of lanes m add to each of the sums, but the square, and but for what lib/render/film.c makes of them: SUM_ALL gets
  * what was seen unscattered. Returns the lanes that have what no sum can take. */
-FN mv film_values(const struct scene *s, struct path *p, mv m, fv *value)
+FN mv film_values(const struct scene *s, struct path *p, mv m, iv sample, fv *value)
 {
 	mv scattered = ilt(IV(0), p->order), often = ilt(IV(1), p->order), bad = NO_LANE;
 	fv zero = FV(0.f), all[3] = { zero, zero, zero };
@@ -76,7 +77,7 @@ FN mv film_values(const struct scene *s, struct path *p, mv m, fv *value)
 		fv last = p->rgb[c], none = p->before[0][c], once = p->before[1][c];
 		fv single = SEL(often, once, SEL(scattered, last, zero)), more = SEL(often, last, zero);
 		none = SEL(scattered, none, last);
-		if (HAS_PEAK(&s->volume) || BRANCHES) {
+		if (HAS_PEAK(&s->volume)) {
 			single += p->aside[0][c];
 			more += p->aside[1][c];
 		}
@@ -92,6 +93,7 @@ FN mv film_values(const struct scene *s, struct path *p, mv m, fv *value)
 	value[SUM_DEPTH] = SEL(le(zero, p->depth), share * (p->depth * s->depth_scale), zero);
 	value[SUM_LUMINANCE] = CHANNELS == 1 ? all[0] : 0.2126f * all[0] + 0.7152f * all[1] + 0.0722f * all[2];
 	bad |= film_clamp(m, &value[SUM_LUMINANCE]);
+	value[SUM_SECOND] = value[SUM_LUMINANCE] * to_float(signed_of(replicate_of(unsigned_of(sample))));
 	value[SUM_ALPHA_RED] = COLOURED ? p->alpha[0] : zero;
 	value[SUM_ALPHA_GREEN] = COLOURED ? p->alpha[1] : zero;
 	value[SUM_ALPHA_BLUE] = COLOURED ? p->alpha[2] : zero;
@@ -109,11 +111,12 @@ FN uint64 film_take(const struct scene *s, GLOBAL int64 *sum, const struct path 
 {
 #define EIGHT(v, a, b) F8(LANE_FLOAT((v)[0], i), LANE_FLOAT((v)[1], i), LANE_FLOAT((v)[2], i), LANE_FLOAT((v)[3], i), \
                           LANE_FLOAT((v)[4], i), LANE_FLOAT((v)[5], i), a, b)
-	l8 n = film_integers(EIGHT(value, LANE_FLOAT(value[SUM_ALPHA_BLUE], i), 0.f));
+	l8 n = film_integers(EIGHT(value, LANE_FLOAT(value[SUM_ALPHA_BLUE], i), LANE_FLOAT(value[SUM_SECOND], i)));
 	*over |= film_add8(sum, n);
 	uint64 high = film_add_square(sum + SUM_SQUARE, PART(n, SUM_LUMINANCE));
 	if (CHANNELS == 3)
-		*over |= film_add8(sum + SUM_GREEN, film_integers(EIGHT(value + SUM_GREEN, LANE_FLOAT(value[SUM_ALPHA_RED], i), LANE_FLOAT(value[SUM_ALPHA_GREEN], i))));
+		*over |= film_add8(sum + SUM_GREEN, film_integers(EIGHT(value + SUM_GREEN, LANE_FLOAT(value[SUM_ALPHA_RED], i),
+		                                                        LANE_FLOAT(value[SUM_ALPHA_GREEN], i))));
 #undef EIGHT
 	for (int j = 0; SPECTRAL && j < LANE(p->waves.n, i); j++) {
 		GLOBAL int64 *own = sum + FILM_SUMS + LANE(p->waves.first, i) + s->n_groups * j;

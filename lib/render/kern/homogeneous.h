@@ -21,21 +21,16 @@ FN void homogeneous_begin(const struct scene *s, const struct volume *v, const s
 	PUT(m, h->length, fv_max(fv_min(t1, t_end) - t0, FV(0.f)));
 }
 
-FN void homogeneous_step(const struct scene *s, const struct volume *v, const struct tables *t, struct traversal *g, struct homogeneous *h,
-                         struct waves w, const struct random *random)
-{
-	(void)s, (void)v, (void)t, (void)g, (void)h, (void)w, (void)random;
-}
-
 /* Camera flights m: forced where they are thin. None has to go again. */
 FN mv homogeneous_force(const struct scene *s, const struct volume *v, const struct tables *t, struct traversal *g, struct homogeneous *h,
-                        mv m, struct waves w, const struct random *random)
+                        mv m, struct waves w, const struct random *random, mv *thin)
 {
 	fv thickest = FV(0.f);
 	(void)v, (void)random;
 	EACH_WAVE(j)
 		thickest = fv_max(thickest, of_wave(s, t->extinction, 0, m, w, j) * h->length);
-	SET_TRUTH(m, g->forced, lt(FV(0.f), thickest) & lt(thickest, FV(FORCED_DEPTH)));
+	*thin = m & lt(FV(0.f), thickest) & lt(thickest, FV(FORCED_DEPTH));
+	g->forced |= *thin;
 	return NO_LANE;
 }
 

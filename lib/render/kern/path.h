@@ -7,7 +7,6 @@
 #define KERN_PATH_H
 
 #include "render/kern/nee.h"
-#include "render/kern/splitting.h"
 
 enum { DRAW_PIXEL_X, DRAW_PIXEL_Y, DRAW_HERO };
 
@@ -16,7 +15,8 @@ FN void path_begin(const struct scene *s, struct path *p, mv m, iv pixel, iv col
 {
 	struct random random = random_of(s->seed, unsigned_of(pixel), unsigned_of(sample));
 	set_random(m, &p->random, random);
-	struct ray r = camera_ray(&s->camera, to_float(column) + draw(&p->random, DRAW_PIXEL_X), to_float(row) + draw(&p->random, DRAW_PIXEL_Y));
+	struct ray r = camera_ray(&s->camera, to_float(column) + draw(&p->random, DRAW_PIXEL_X),
+	                          to_float(row) + draw(&p->random, DRAW_PIXEL_Y));
 	set3(m, &p->ray.from, r.from);
 	set3(m, &p->ray.along, r.along);
 	set3(m, &p->ray.inverse, r.inverse);
@@ -48,8 +48,6 @@ FN void path_begin(const struct scene *s, struct path *p, mv m, iv pixel, iv col
 		SET(m, p->aside[1][i], FV(0.f));
 		SET(m, p->alpha[i], FV(0.f));
 	}
-	SET(m, p->split.branch, unsigned_of(sample) * (uint32)s->branches);
-	SET(m, p->split.left, IV(0));
 	next_vertex(&p->random, m);
 }
 
@@ -111,29 +109,40 @@ FN void path_alpha(const struct scene *s, const struct tables *t, struct path *p
 	}
 }
 
-/* Where almost all of the camera's rays would pass the medium, chance makes black pixels and a few bright ones. There the first scattering is
- * forced: what is seen unscattered is taken in as it is, and the path goes on from a scattering with the weight that one has. Where that
- * weight is below FORCED_LEAST, chance decides once more, so that what is scattered does not vanish between the film's units. A ray that ends
- * at the ground, which lights it, is left to chance. */
+/* Where almost all of the camera's rays would pass the medium, chance makes black pixels and a few bright ones. There the first
+ * scattering is forced: what is seen unscattered is taken in as it is, and the path goes on from a scattering with the weight that one
+ * has. Where that weight is below FORCED_LEAST, chance decides once more, so that what is scattered does not vanish between the film's
+ * units. A ray that ends at the ground, which lights it, is left to chance. */
 #define FORCED_LEAST 0x1p-13f
 
-/* Before their flights end: paths m see what is unscattered. */
-FN void path_force(const struct scene *s, const struct volume *v, const struct tables *t, struct path *p, mv m)
+/* Paths m as they are unscattered: taken[] is what the medium took away from them, flight_pdf[] theirs as they are scattered. */
+FN void path_pass(const struct scene *s, const struct volume *v, const struct tables *t, struct path *p, mv m, fv *taken,
+                  fv *flight_pdf)
 {
-	fv depth[CARRIED], taken[CARRIED], most = FV(0.f), mean = FV(0.f);
+	fv depth[CARRIED];
 	volume_depth(s, v, t, &p->walk, m, p->waves, depth);
 	EACH_WAVE(j) {
-		taken[j] = SEL(ilt(IV(j), p->waves.n), one_less_exp(depth[j]), FV(0.f));
-		most = fv_max(most, taken[j]);
-		mean += taken[j];
+		mv own = ilt(IV(j), p->waves.n);
+		taken[j] = SEL(own, one_less_exp(depth[j]), FV(0.f));
+		flight_pdf[j] = p->path_pdf[j];
+		SET(m, p->path_pdf[j], SEL(own, FV(1.f), FV(0.f)));
 		SET(m, p->weight[j], (float)s->n_groups * (1.f - taken[j]));
 	}
-	path_leave(s, v, t, p, m);
+}
+
+/* They go on as they are scattered. */
+FN void path_force(const struct scene *s, const struct tables *t, struct path *p, mv m, const fv *taken, const fv *flight_pdf)
+{
+	fv most = FV(0.f), mean = FV(0.f);
+	EACH_WAVE(j) {
+		most = fv_max(most, taken[j]);
+		mean += taken[j];
+		SET(m, p->path_pdf[j], flight_pdf[j]);
+		SET(m, p->weight[j], (float)s->n_groups * taken[j]);
+	}
 	if (COLOURED || SPECTRAL)
 		path_alpha(s, t, p, m, taken);
 	SET(m, p->cover, mean / to_float(p->waves.n));
-	EACH_WAVE(j)
-		SET(m, p->weight[j], (float)s->n_groups * taken[j]);
 	SET(m, p->rare, 1.f / fv_max(most, FV(1e-30f)));
 }
 
@@ -155,35 +164,42 @@ FN mv path_forced(const struct scene *s, struct path *p, mv m, fv t)
 FN mv path_arrive(const struct scene *s, const struct volume *v, const struct tables *t, struct path *p, mv m)
 {
 	fv flight_pdf[CARRIED];
-	mv forced = NO_LANE;
-	if (KNOWS_DEPTH(v) && any(m & MAY_BE_FORCED(p))) {
-		m &= NOT(volume_force(s, v, t, &p->walk, m & MAY_BE_FORCED(p), p->waves, &p->random));
-		forced = m & MAY_BE_FORCED(p) & p->walk.ray.forced;
-		if (any(forced))
-			path_force(s, v, t, p, forced);
+	mv forced = NO_LANE, thin = NO_LANE;
+	if (KNOWS_DEPTH(v)) {
+		mv may = m & MAY_BE_FORCED(p);
+		if (any(may)) {
+			m &= NOT(volume_force(s, v, t, &p->walk, may, p->waves, &p->random, &thin));
+			forced = m & may & p->walk.ray.forced;
+		}
 	}
 	struct collision c = volume_end(s, v, t, &p->walk, m, p->waves, &p->random, flight_pdf);
 	mv alive = m & lt(FV(0.f), take_pdf(s, p->waves, p->path_pdf, m, flight_pdf));
-	if (any(forced))
-		alive &= NOT(path_forced(s, p, forced & alive & c.happened, c.t));
-	mv hit = alive & c.happened, ground = alive & NOT(c.happened) & ieq(p->surface, IV(GROUND)), out = alive & NOT(hit | ground | forced);
-	mv over = m & NOT(hit | ground);
+	mv ground = alive & NOT(c.happened) & ieq(p->surface, IV(GROUND)), out = alive & NOT(c.happened | ground | forced);
 	if (COLOURED || SPECTRAL) {
 		mv seen = m & NOT(forced) & ieq(p->order, IV(0)) & FROM_CAMERA(p);
 		fv taken[CARRIED];
 		EACH_WAVE(j)    /* 1 less what is seen of light behind, so that both are one to the last bit */
-			taken[j] = SEL(alive & NOT(hit), 1.f - PATH_PDF(p, j), FV(1.f));
+			taken[j] = SEL(alive & NOT(c.happened), 1.f - PATH_PDF(p, j), FV(1.f));
 		if (any(seen))
 			path_alpha(s, t, p, seen, taken);
 	}
+	fv passed[CARRIED], kept_pdf[CARRIED];
+	EACH_WAVE(j)
+		passed[j] = kept_pdf[j] = FV(0.f);
+	if (any(thin))
+		path_pass(s, v, t, p, thin, passed, kept_pdf);
+	if (any(out | thin))
+		path_leave(s, v, t, p, out | thin);
+	if (any(thin))
+		path_force(s, t, p, thin, passed, kept_pdf);
+	if (any(forced))
+		alive &= NOT(path_forced(s, p, forced & alive & c.happened, c.t));
+	mv hit = alive & c.happened, over = m & NOT(hit | ground);
 	p->flying &= NOT(m);
-	if (any(out))
-		path_leave(s, v, t, p, out);
 	m = hit | ground;
 	PUT3(m, p->vertex.point, c.point);
 	PUT(m, p->vertex.class, c.class);
 	PUT(m, p->vertex.id, c.id);
-	mv first = hit & ieq(p->order, IV(0));
 	next_order(s, p, hit, c.t);
 	if (HAS_GROUND) {
 		struct vec floor = add(p->ray.from, scale(p->ray.along, p->t_end));
@@ -196,22 +212,18 @@ FN mv path_arrive(const struct scene *s, const struct volume *v, const struct ta
 		fv albedo = of_class(s, v, t->albedo, hit, p->vertex.class, p->waves, j);
 		PUT(m, p->weight[j], p->weight[j] * (HAS_GROUND ? SEL(hit, albedo, FV(s->surfaces.ground_albedo)) : albedo));
 	}
-	if (BRANCHES && any(first | p->split.again)) {
-		split_path(s, p, first);
-		m |= p->split.again;
-	}
 	if (s->lights.n)
 		nee_begin(s, v, t, p, m);
 	return over;
 }
 
-/* Roulette on the throughput of a branch: survival is certain above 1/4, and 4 times the throughput below, never less than it. */
+/* Roulette on the throughput: survival is certain above 1/4, and 4 times the throughput below, never less than it. */
 FN mv roulette(const struct scene *s, struct path *p, mv m)
 {
 	fv throughput = FV(0.f);
 	EACH_WAVE(j)
 		throughput = fv_max(throughput, p->weight[j] * PATH_PDF(p, j));
-	fv q = 4.f * (float)s->branches * (throughput * p->rare);
+	fv q = 4.f * (throughput * p->rare);
 	mv doubtful = m & lt(q, FV(1.f));
 	if (!any(doubtful))
 		return m;

@@ -19,32 +19,12 @@ struct vertex {
 	iv class, id;              /* what scatters in a medium; id NONE where it is no single particle */
 };
 
-FN void set_vertex(mv m, struct vertex *place, struct vertex value)
-{
-	set3(m, &place->point, value.point);
-	SET(m, place->kind, value.kind);
-	SET(m, place->class, value.class);
-	SET(m, place->id, value.id);
-}
-
 /* A chain of scatterings by the peak from a vertex to a light, see forward_peak.h. */
 struct chain {
 	mv flying;                 /* in flight to its next scattering */
 	iv length, left;           /* its scatterings, in all and still to come */
 	struct vec light;          /* to the light */
 	fv pdf[CARRIED];           /* the path's and the chain's, as path_pdf[] */
-};
-
-/* Where a camera ray splits: the vertex where the medium first scatters it, kept for the branches that go on from there, see
- * splitting.h. */
-struct split {
-	uv branch;                 /* counts all samples' branches of a pixel */
-	iv left;                   /* branches still to come */
-	mv again;                  /* back at the vertex, for the next one */
-	struct vec along;          /* of the camera's ray */
-	struct vertex vertex;
-	fv weight[CARRIED], path_pdf[CARRIED], peak_share[CARRIED];
-	uv counter;                /* of its random numbers */
 };
 
 struct path {
@@ -56,7 +36,7 @@ struct path {
 	fv rgb[3];                 /* seen since the medium last scattered the path */
 	iv order;                  /* times that it did, from 2 on 2; reflections by surfaces do not count */
 	fv before[2][3];           /* what was seen unscattered, and scattered once, of an order that is over */
-	fv aside[2][3];            /* what came by chains, or by branches that are over, scattered once and more often on the whole */
+	fv aside[2][3];            /* what came by chains, scattered once and more often on the whole */
 	fv cover;                  /* what the medium takes away from the camera's ray, as a mean over its wavelengths */
 	fv depth;                  /* along the camera's ray to where the medium scattered it, -1 if it did not; of a forced flight times cover */
 	fv rare;                   /* 1 / the probability that a flight was forced to end in the medium, else 1 */
@@ -73,7 +53,6 @@ struct path {
 	fv nee[CARRIED], nee_rgb[3];    /* what the light drawn adds through a clear medium: wavelength j sees nee[j] nee_rgb[] */
 	fv peak_share[CARRIED];    /* the share of the path's pdf, from the camera or the ground on, that peaks alone have */
 	struct chain chain;
-	struct split split;
 };
 
 /* Of one wavelength the pdf is its own mean. */

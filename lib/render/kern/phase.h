@@ -29,7 +29,7 @@ FN iv phase_row(const struct tables *t, mv m, int only, iv class, int k)
 
 FN void interval_load(const struct scene *s, const struct tables *t, mv m, iv i, struct waves w, struct interval *out)
 {
-	iv row = INTERVAL_ROW(s->n_waves) * i;
+	iv row = INTERVAL_ROW(N_WAVES) * i;
 	fv q[4];
 	gather4(m, t->interval, row, 0, q);
 	out->sine = q[0];
@@ -84,7 +84,7 @@ FN iv phase_draw(const struct scene *s, const struct tables *t, mv m, int only, 
 {
 	iv shift = phase_row(t, m, only, class, PHASE_SHIFT);
 	uv column = SEL(m, u >> unsigned_of(shift), UV(0)), rest = u - (column << unsigned_of(shift));
-	iv entry = 2 * ((phase_row(t, m, only, class, PHASE_COLUMN) + signed_of(column)) * s->n_waves + hero_of(s, w));
+	iv entry = 2 * ((phase_row(t, m, only, class, PHASE_COLUMN) + signed_of(column)) * N_WAVES + hero_of(s, w));
 	iv alias[2];
 	igather2(m, t->alias, entry, alias);
 	iv at = phase_row(t, m, only, class, PHASE_INTERVAL) + SEL(ilt(signed_of(rest), alias[0]), signed_of(column), alias[1]);

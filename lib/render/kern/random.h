@@ -3,7 +3,9 @@
  *
  * Where an integrand is smooth, numbers that fill space evenly do better than independent ones: the samples of a pixel are points of an
  * extensible Korobov lattice (Hickernell, Hong, L'Ecuyer and Lemieux 2000), in the order of their reversed bits, moved in every
- * dimension by a random shift of the pixel's. Each sample is uniform, so that any of them give the right mean. */
+ * dimension by a random shift. Each sample is uniform, so that any of them give the right mean. The points of one lattice are not
+ * independent, and their spread does not tell the variance of their mean. So the samples are two replicates of the lattice, each with a
+ * shift of its own, whose means tell it. */
 #ifndef KERN_RANDOM_H
 #define KERN_RANDOM_H
 
@@ -13,7 +15,7 @@
 #define EVEN 6           /* of them, the first ones, from the lattice */
 
 struct random {
-	uv key, shift;             /* of the sample, of the pixel */
+	uv key, shift;             /* of the sample, of the pixel's replicate */
 	uv counter;                /* of the vertex */
 	uv lattice;                /* the sample's point in the vertex's first dimension */
 };
@@ -39,13 +41,23 @@ FN uv reversed(uv x)
 
 FN uv key_of(uv sample, uv shift) { return mix(sample + 0x7f4a7c15u, shift); }
 
+/* Which of the two replicates a sample is of: one of each pair, but not in step with what recurs (the sequence of Thue and Morse). */
+FN uv replicate_of(uv sample)
+{
+	sample ^= sample >> 16;
+	sample ^= sample >> 8;
+	sample ^= sample >> 4;
+	sample ^= sample >> 2;
+	return (sample ^ sample >> 1) & 1u;
+}
+
 FN struct random random_of(uint32 seed, uv pixel, uv sample)
 {
 	struct random r;
-	r.shift = mix(pixel + 0x9e3779b9u, UV(seed * 0x9e3779b1u ^ 0x85ebca6bu));
+	r.shift = mix(pixel + 0x9e3779b9u, (seed * 0x9e3779b1u ^ 0x85ebca6bu) ^ replicate_of(sample) * 0xc2b2ae35u);
 	r.key = key_of(sample, r.shift);
 	r.counter = mix(r.shift ^ 0x2545f491u, r.shift);
-	r.lattice = reversed(sample);
+	r.lattice = reversed(sample >> 1);
 	return r;
 }
 
@@ -79,13 +91,6 @@ FN void next_vertex(struct random *r, mv m)
 {
 	SET(m, r->counter, r->counter + DIMENSIONS * 0x9e3779b9u);
 	SET(m, r->lattice, r->lattice * generator(EVEN));
-}
-
-/* From the vertex at hand on, lanes m draw the numbers of another sample of their pixel. */
-FN void another_sample(mv m, struct random *r, uv sample)
-{
-	SET(m, r->key, key_of(sample, r->shift));
-	SET(m, r->lattice, reversed(sample) * generator(EVEN));
 }
 
 #endif

@@ -57,9 +57,8 @@ FN void render_pixels(const struct scene *s, const struct tables *t, GLOBAL int6
 			path_begin(s, &p, fresh, work.at_pixel, work.at_column, work.at_row, work.at_sample);
 		live |= fresh;
 		path_fly(s, v, t, &p, fresh | leaving);
-		int paths = count(live), under_way;
-		while ((under_way = count(volume_going(v, &p.walk))) > 0 && paths - under_way < VERTEX_WAIT)
-			volume_step(s, v, t, &p.walk, p.waves, &p.walk_random);
+		int least = count(live) - VERTEX_WAIT;
+		volume_step(s, v, t, &p.walk, p.waves, &p.walk_random, least > 0 ? least : 0);
 		mv here = live & NOT(volume_going(v, &p.walk)), chained = HAS_PEAK(v) ? here & p.chain.flying : NO_LANE;
 		mv ended = path_arrive(s, v, t, &p, here & p.flying);
 		if (any(chained))
@@ -67,15 +66,13 @@ FN void render_pixels(const struct scene *s, const struct tables *t, GLOBAL int6
 		leaving = live & NOT(p.flying | volume_going(v, &p.walk) | ended | (HAS_PEAK(v) ? p.chain.flying : NO_LANE));
 		ended |= path_depart(s, v, t, &p, leaving);
 		leaving &= NOT(ended);
-		if (BRANCHES)
-			ended = split_over(&p, ended);
 		live &= NOT(ended);
 		over |= ended;
 		fresh = NO_LANE;
 		if (any(live) && count(over) < BEGIN_WAIT)
 			continue;
 		fv value[FILM_SUMS];
-		bad |= film_values(s, &p, over, value);
+		bad |= film_values(s, &p, over, work.at_sample, value);
 		EACH_LANE_OF(over, i)
 			square |= film_take(s, film + (int64)s->film_sums * LANE(work.at_pixel, i), &p, value, (int)i, &high);
 		fresh = work_take(s, &work, over);

@@ -92,8 +92,6 @@ struct scene {
 	uint32 seed;
 	int n_waves, n_groups;
 	int carried;               /* wavelengths of the largest group */
-	int branches;              /* ways that a camera ray goes on from where the medium first scatters it */
-	float branch_share;        /* 1 / branches */
 	int channels;              /* 3; 1 where red, green and blue are the same */
 	int film_sums;             /* of a pixel: FILM_SUMS, and two a wavelength if spectral */
 	int spectral;

@@ -36,11 +36,16 @@ FN void volume_begin(const struct scene *s, const struct volume *v, const struct
 	MODEL(begin, m, r, t_end, flight, w, random);
 }
 
-/* A step of all lanes that have steps to take. */
+/* All lanes that have steps to take do so, until at most least of them have any left. */
 FN void volume_step(const struct scene *s, const struct volume *v, const struct tables *t, struct volume_walk *g, struct waves w,
-                    const struct random *random)
+                    const struct random *random, int least)
 {
-	MODEL(step, w, random);
+	if (USES_PARTICLES(v))
+		while (count(g->ray.going) > least)
+			particles_step(s, v, t, &g->ray, &g->particles, w, random);
+	else if (TRANSPORT_OF(v) == TRANSPORT_GRID)
+		while (count(g->ray.going) > least)
+			voxels_step(s, v, t, &g->ray, &g->voxels, w, random);
 }
 
 /* What shadow rays m let through at each wavelength. */
@@ -72,12 +77,12 @@ FN void volume_measure(const struct scene *s, const struct volume *v, const stru
 		voxels_measure(s, v, t, &g->voxels, m, w);
 }
 
-/* They have ended: those that went through little are forced to end in the volume (ray.forced). Returns those that have to take their steps
- * again. */
+/* They have ended: those that went through little, *thin, are forced to end in the volume (ray.forced). Returns those that have to take
+ * their steps again. */
 FN mv volume_force(const struct scene *s, const struct volume *v, const struct tables *t, struct volume_walk *g, mv m, struct waves w,
-                   const struct random *random)
+                   const struct random *random, mv *thin)
 {
-	return DEPTH_MODEL(force, m, w, random);
+	return DEPTH_MODEL(force, m, w, random, thin);
 }
 
 /* The optical depth of the whole way of forced flights m, at each wavelength. */

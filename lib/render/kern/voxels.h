@@ -97,30 +97,32 @@ FN void voxels_measure(const struct scene *s, const struct volume *v, const stru
 
 /* They have ended: forced where they were thin. Returns those that have to go again, to where they end. */
 FN mv voxels_force(const struct scene *s, const struct volume *v, const struct tables *t, struct traversal *g, struct voxel_dda *q, mv m,
-                   struct waves w, const struct random *random)
+                   struct waves w, const struct random *random, mv *thin)
 {
 	fv whole[CARRIED], thickest = FV(0.f);
-	m &= le(FV(0.f), q->asked);
-	if (!any(m))
-		return m;
 	EACH_WAVE(j) {
 		whole[j] = IS_COUNTED(v) ? q->depth[j] : of_wave(s, t->extinction, 0, m, w, j) * q->depth[0];
 		thickest = fv_max(thickest, whole[j]);
 	}
-	mv thin = m & NOT(q->reached) & lt(FV(0.f), thickest) & lt(thickest, FV(FORCED_DEPTH));
-	fv own = hero_among(s, whole, w), target = forced_path(draw_bits(random, DRAW_FLIGHT), fv_min(own, FV(FORCED_DEPTH)));
-	if (!IS_COUNTED(v)) {
-		fv sigma = of_hero(s, t->extinction, m, w);
-		target = SEL(lt(FV(0.f), sigma), target / sigma, FV(FAR));
-	}
-	EACH_WAVE(j)
-		SET(thin, q->whole[j], whole[j]);
-	SET_TRUTH(m, g->forced, thin);
-	target = SEL(thin, target, q->asked);
-	fv passed = IS_COUNTED(v) ? own : q->depth[0];
-	mv again = thin | (m & ((q->reached & lt(q->asked, q->target)) | (NOT(q->reached) & le(q->asked, passed))));
+	m &= le(FV(0.f), q->asked);
+	mv through = m & NOT(q->reached);
+	fv own = hero_among(s, whole, w), passed = IS_COUNTED(v) ? own : q->depth[0], target = q->asked;
+	*thin = through & lt(FV(0.f), thickest) & lt(thickest, FV(FORCED_DEPTH));
+	mv again = *thin | (through & le(q->asked, passed)) | (m & q->reached & lt(q->asked, q->target));
 	SET(m, q->asked, FV(-1.f));
-	voxels_start(s, v, g, q, again, target);
+	if (any(*thin)) {
+		fv forced = forced_path(draw_bits(random, DRAW_FLIGHT), fv_min(own, FV(FORCED_DEPTH)));
+		if (!IS_COUNTED(v)) {
+			fv sigma = of_hero(s, t->extinction, m, w);
+			forced = SEL(lt(FV(0.f), sigma), forced / sigma, FV(FAR));
+		}
+		SET(*thin, target, forced);
+		EACH_WAVE(j)
+			SET(*thin, q->whole[j], whole[j]);
+		g->forced |= *thin;
+	}
+	if (any(again))
+		voxels_start(s, v, g, q, again, target);
 	return again;
 }
 
@@ -187,10 +189,11 @@ FN void voxels_step(const struct scene *s, const struct volume *v, const struct 
 	fv out = fv_min(leave[0], fv_min(leave[1], leave[2])), span = fv_max(FV(0.f), fv_min(out, q->t1) - q->t);
 	if (IS_COUNTED(v)) {
 		fv here[CARRIED], own = FV(FAR), own_here = FV(FAR);
-		iv at = (brick * BRICK_CELLS + ((i[2] & 3) * BRICK + (i[1] & 3)) * BRICK + (i[0] & 3)) * s->n_waves;
+		iv at = (brick * BRICK_CELLS + ((i[2] & 3) * BRICK + (i[1] & 3)) * BRICK + (i[0] & 3)) * N_WAVES;
 		EACH_WAVE(j) {
 			here[j] = gather(full, t->voxel, at + wave_of(s, w, j));
-			mv mine = (g->flight & ieq(w.hero, IV(j))) | (NOT(g->flight) & lt(q->depth[j] + here[j] * span, own + own_here));
+			mv mine = CARRIED == 1 ? ALL_LANES
+			    : (g->flight & ieq(w.hero, IV(j))) | (NOT(g->flight) & lt(q->depth[j] + here[j] * span, own + own_here));
 			own = SEL(mine, q->depth[j], own);
 			own_here = SEL(mine, here[j] * span, own_here);
 		}
@@ -269,9 +272,9 @@ FN iv class_in(const struct scene *s, const struct volume *v, const struct table
 	iv class = IV(0), row = (((i[2] - BRICK) * v->voxels[1] + (i[1] - BRICK)) * v->voxels[0] + (i[0] - BRICK)) * v->n_classes;
 	fv all = FV(0.f), sum = FV(0.f);
 	for (int k = 0; k < v->n_classes; k++)
-		all += to_float(igather(m, t->count, row + k)) * gather(m, t->disc_radius2, k * s->n_waves + wave);
+		all += to_float(igather(m, t->count, row + k)) * gather(m, t->disc_radius2, k * N_WAVES + wave);
 	for (int k = 0; k < v->n_classes; k++) {
-		fv own = to_float(igather(m, t->count, row + k)) * gather(m, t->disc_radius2, k * s->n_waves + wave);
+		fv own = to_float(igather(m, t->count, row + k)) * gather(m, t->disc_radius2, k * N_WAVES + wave);
 		class = SEL(lt(FV(0.f), own) & le(sum, u * all), IV(k), class);
 		sum += own;
 	}

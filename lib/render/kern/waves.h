@@ -18,7 +18,7 @@ FN fv of_wave(const struct scene *s, FLOATS table, int from, mv m, struct waves 
 	return (void)s, (void)w, (void)m, FV(float_at(table, from + j));
 }
 #else
-FN iv wave_of(const struct scene *s, struct waves w, int j) { return iv_min(w.first + s->n_groups * j, IV(s->n_waves - 1)); }
+FN iv wave_of(const struct scene *s, struct waves w, int j) { return iv_min(w.first + s->n_groups * j, IV(N_WAVES - 1)); }
 FN fv of_wave(const struct scene *s, FLOATS table, int from, mv m, struct waves w, int j)
 {
 	return gather(m, table, from + wave_of(s, w, j));
@@ -28,8 +28,8 @@ FN fv of_wave(const struct scene *s, FLOATS table, int from, mv m, struct waves 
 /* The same from a table [class][wave]. */
 FN fv of_class(const struct scene *s, const struct volume *v, FLOATS table, mv m, iv class, struct waves w, int j)
 {
-	return v->only_class >= 0 ? of_wave(s, table, v->only_class * s->n_waves, m, w, j)
-	    : gather(m, table, class * s->n_waves + wave_of(s, w, j));
+	return v->only_class >= 0 ? of_wave(s, table, v->only_class * N_WAVES, m, w, j)
+	    : gather(m, table, class * N_WAVES + wave_of(s, w, j));
 }
 
 /* The hero's index in the medium's list; and a value of it. */
