@@ -75,8 +75,8 @@ static double *angles(const struct phase_means_request *r, long n)
 	return theta;
 }
 
-/* How far a part spreads, in size parameters, as its interference averages out: its breadth, were the density even, by the variance, or by
- * what the density is at ends that are cut. */
+/* How far a part spreads, in size parameters, as its interference averages out: its breadth, were the density even, by the
+ * variance, or by what the density is at ends that are cut. */
 static double breadth(const struct integrand *g, const struct size_range *range)
 {
 	const struct size_density *density = g->r->table->density;
@@ -100,11 +100,12 @@ static double breadth(const struct integrand *g, const struct size_range *range)
 	return x_of_um * fmin(sqrt(12 * fmax(variance, 0)), 2 * sum[0] / ends);
 }
 
-/* waves.blur of a part: what turns more often over its breadth than `turns' says is left out, if what that leaves is little; *error: this, by
- * comparison with means in which all interferes, for indices from 0.75 to 2. */
+/* waves.blur of a part: what turns more often over its breadth than `turns' says is left out, if what that leaves is little;
+ * *error: this, by comparison with means in which all interferes, for indices from 0.75 to 2. */
 static double blur_of(const struct integrand *g, const struct size_range *range, double *error)
 {
-	double tolerance = g->r->tolerance, bubble = creal(g->r->table->wave[g->wave].m) < 1, turns = 30 + (bubble ? 0.3 : 0.1) / tolerance;
+	const int bubble = creal(g->r->table->wave[g->wave].m) < 1;
+	double tolerance = g->r->tolerance, turns = 30 + (bubble ? 0.3 : 0.1) / tolerance;
 	double wide = g->r->model->blurs ? breadth(g, range) : 0;
 	*error = 0.15 / wide + (bubble ? 0.1 : 0.01) / turns;
 	if (*error <= BLURRED * tolerance)

@@ -154,8 +154,8 @@ int spheres_batch(struct spheres *s, struct waves out[SPHERES_BATCH])
 void spheres_warn_classes(const struct spheres *s)
 {
 	if (s->classes)
-		warn(tab_path(s->table), "coefficients of classes are those of their radii alone, and so is what is made of them: no mean over a class; "
-		     "give the sizes for that, or --at-radius if it is meant");
+		warn(tab_path(s->table), "coefficients of classes are those of their radii alone, and so is what is made of them: "
+		     "no mean over a class; give the sizes for that, or --at-radius if it is meant");
 }
 
 void spheres_close(struct spheres *s)

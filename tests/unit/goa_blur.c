@@ -35,8 +35,8 @@ static void ends(double complex m, int order, double x)
 			most = fmax(most, fabs(norm2(s1[k]) / p1[k] - 1));
 		}
 	ok(all < 1e-9 && some < ANGLES / 20 && most > 0.5,
-	   "m = %g%+gi, order %d, x = %g: all interference within %.1e, none but where two rays are as long (%d of %d angles)", creal(m), cimag(m),
-	   order, x, all, some, ANGLES);
+	   "m = %g%+gi, order %d, x = %g: all interference within %.1e, none but where two rays are as long (%d of %d angles)",
+	   creal(m), cimag(m), order, x, all, some, ANGLES);
 	goa_free(g);
 }
 

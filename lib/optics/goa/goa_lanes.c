@@ -77,8 +77,8 @@ static int shares(double fastest, const double rate[GOA_WIDTH], double share[GOA
 	return slow != 0;
 }
 
-static void with_diffraction(const struct goa_packet *k, const struct goa_angles *angles, const double d[GOA_WIDTH], double x, double fastest,
-                             const double size[GOA_WIDTH], double s[2][GOA_WIDTH])
+static void with_diffraction(const struct goa_packet *k, const struct goa_angles *angles, const double d[GOA_WIDTH], double x,
+                             double fastest, const double size[GOA_WIDTH], double s[2][GOA_WIDTH])
 {
 	double rate[GOA_WIDTH], share[GOA_WIDTH];
 #pragma omp simd
@@ -97,8 +97,8 @@ static void with_diffraction(const struct goa_packet *k, const struct goa_angles
 	}
 }
 
-static void of_pair(const struct goa_packet *k, const struct goa_packet *l, double x, double fastest, const double k_size[GOA_WIDTH],
-                    const double l_size[GOA_WIDTH], double s[2][GOA_WIDTH])
+static void of_pair(const struct goa_packet *k, const struct goa_packet *l, double x, double fastest,
+                    const double k_size[GOA_WIDTH], const double l_size[GOA_WIDTH], double s[2][GOA_WIDTH])
 {
 	double rate[GOA_WIDTH], share[GOA_WIDTH];
 #pragma omp simd

@@ -11,8 +11,8 @@ static double contrast_of(double complex m)
 	return fabs((re - 1) * (re + 1) - im * im) + 2 * re * im;
 }
 
-/* By how much a wave c, which has its weight, moves the sums as t moves by up to so much: by itself, and with the wave before it in the one
- * for g. */
+/* By how much a wave c, which has its weight, moves the sums as t moves by up to so much: by itself, and with the wave before it
+ * in the one for g. */
 static double moved(double weight, const double c[2], const double before[2], double move)
 {
 	double unit = 1 / weight, re = c[0] * unit, im = fabs(c[1]) * unit, size2 = re * re + im * im, share, turned;
