@@ -244,6 +244,8 @@ int main(int argc, char **argv)
 	for (int k = 0; k < METHODS; k++)
 		if (told.worst[k].n)
 			tell_method(k, &told.worst[k], verbose);
+	if (!request.at_radius)
+		spheres_warn_classes(in);
 	if (means)
 		tell_means(tab_path(spheres_table(in)), &told, request.tolerance, verbose);
 	if (told.dark.size.x_im > 0) {

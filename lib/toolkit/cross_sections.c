@@ -131,7 +131,8 @@ static double integrate(const struct class_table *t, size_t wave, struct method_
 {
 	struct sections sections = { t, wave, selection, METHOD_MIE, 0 };
 	const struct size *size = &t->wave[wave];
-	int resonates = method_selection_asked(selection) == METHOD_AUTO || method_selection_asked(selection) == METHOD_MIE;
+	enum method asked = method_selection_asked(selection);
+	int resonates = asked == METHOD_AUTO || asked == METHOD_MIE;
 	struct size_integral s = { .density = t->density,
 		.integrand = { &sections, size->x / size->radius, size->m, resonates, VALUES, count_values, add, error_of } };
 	double left = ranges_add(&s, t, together, tolerance), worst = size_integral_run(&s, tolerance, MOST_WORK);

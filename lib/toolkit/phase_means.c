@@ -10,6 +10,8 @@
 #include <string.h>
 
 #define TAILS 0.01         /* of the tolerance, more than ranges_add leaves out */
+#define BLURRED 0.6        /* of the tolerance, what interference that is left out may make, at most */
+#define BREADTH_LEVEL 2    /* of sizes that tell the breadth */
 #define MOST_WORK 3e8      /* of size parameters together */
 
 struct phase_mean {
@@ -73,6 +75,45 @@ static double *angles(const struct phase_means_request *r, long n)
 	return theta;
 }
 
+/* How far a part spreads, in size parameters, as its interference averages out: its breadth, were the density even, by the
+ * variance, or by what the density is at ends that are cut. */
+static double breadth(const struct integrand *g, const struct size_range *range)
+{
+	const struct size_density *density = g->r->table->density;
+	const double x_of_um = g->r->table->wave[g->wave].x / g->r->table->wave[g->wave].radius;
+	double sum[3] = { 0 }, ends = 0;
+	for (int level = 0; level <= BREADTH_LEVEL; level++) {
+		for (int i = 0; i < 3; i++)
+			sum[i] /= 2;
+		for (long k = 0, n = size_range_count(range, level); k < n; k++) {
+			double radius, weight[SIZE_WAYS];
+			size_range_at(range, density, level, k, &radius, weight);
+			for (int i = 0; i < 3; i++)
+				sum[i] += weight[0] * pow(radius, 2 + i);
+		}
+	}
+	if (range->cut_lo)
+		ends += size_density_at(density, range->class, 0, log(range->lo)) * range->lo;
+	if (range->cut_hi)
+		ends += size_density_at(density, range->class, 0, log(range->hi)) * range->hi;
+	double mean = sum[1] / sum[0], variance = sum[2] / sum[0] - mean * mean;
+	return x_of_um * fmin(sqrt(12 * fmax(variance, 0)), 2 * sum[0] / ends);
+}
+
+/* waves.blur of a part: what turns more often over its breadth than `turns' says is left out, if what that leaves is little;
+ * *error: this, by comparison with means in which all interferes, for indices from 0.75 to 2. */
+static double blur_of(const struct integrand *g, const struct size_range *range, double *error)
+{
+	const int bubble = creal(g->r->table->wave[g->wave].m) < 1;
+	double tolerance = g->r->tolerance, turns = 30 + (bubble ? 0.3 : 0.1) / tolerance;
+	double wide = g->r->model->blurs ? breadth(g, range) : 0;
+	*error = 0.15 / wide + (bubble ? 0.1 : 0.01) / turns;
+	if (*error <= BLURRED * tolerance)
+		return turns / wide;
+	*error = 0;
+	return 0;
+}
+
 static void add(void *context, const struct size_part *part, int ways, size_t n, const double *radius,
                 const double *const weight[SIZE_WAYS], double *const sum[SIZE_WAYS])
 {
@@ -80,8 +121,9 @@ static void add(void *context, const struct size_part *part, int ways, size_t n,
 	long count = angles_of(g->r, part->values);
 	double *theta = angles(g->r, count);
 	struct waves *w = xalloc(n, sizeof *w);
+	double left, blur = blur_of(g, &part->range, &left);
 	for (size_t i = 0; i < n; i++)
-		w[i].size = class_table_size(g->r->table, g->wave, radius[i]);
+		w[i] = (struct waves){ .size = class_table_size(g->r->table, g->wave, radius[i]), .blur = blur };
 	phase_sums_add(g->r->model, n, w, count, theta, ways, weight, sum);
 	free(w);
 	free(theta);
@@ -230,8 +272,12 @@ struct phase_means *phase_means_new(const struct phase_means_request *r, size_t 
 			g.ring[j] = sin(r->theta[j] * (M_PI / 180)) * (r->theta[j + 1 < r->n ? j + 1 : j] - r->theta[j ? j - 1 : 0]) / 2 * (M_PI * M_PI / 180);
 	}
 	if (t->classes) {
-		double left = ranges_add(&s, t, r->together, r->tolerance);
-		m->error = left + size_integral_run(&s, (1 - TAILS) * r->tolerance, MOST_WORK);
+		double blurred = 0, own, left = ranges_add(&s, t, r->together, r->tolerance);
+		for (size_t i = 0; i < s.n; i++) {
+			blur_of(&g, &s.part[i].range, &own);
+			blurred = fmax(blurred, own);
+		}
+		m->error = left + blurred + size_integral_run(&s, (1 - TAILS) * r->tolerance - blurred, MOST_WORK);
 		m->sizes = s.sizes;
 		for (size_t i = 0; i < s.n; i++)
 			m->x = fmax(m->x, s.part[i].range.hi * size_extent(size) / size->radius);

@@ -22,6 +22,7 @@ struct phase_model {
 	/* Whether an open sphere may be asked again and again, by several threads at once, for any angles. If not, it is asked once, for
 	 * the angles it was opened for, and closed before its thread opens another. */
 	int any_angles;
+	int blurs;               /* whether it minds waves.blur */
 	/* open - get ready for n angles theta[n] (degrees), of which only the number may be known (theta NULL) where any_angles. It
 	 * may solve w and drop its coefficients; w has to stay. Threads open spheres at once. NULL when memory ran out. */
 	struct phase_sphere *(*open)(void *context, struct waves *w, size_t n, const double *theta);

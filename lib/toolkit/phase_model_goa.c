@@ -31,7 +31,7 @@ struct sphere {
 	struct phase_sphere known;
 	struct context *context;
 	struct rays *rays;
-	double x, error;
+	double x, blur, error;
 };
 
 static struct rays *rays_of(struct context *c, double complex m)
@@ -57,6 +57,7 @@ static struct phase_sphere *open_sphere(void *context, struct waves *w, size_t n
 		return NULL;
 	s->context = c;
 	s->x = w->size.x;
+	s->blur = w->blur;
 	s->rays = rays_of(c, w->size.m);
 	int failed = !s->rays;
 	if (!failed && s->rays->plus) {
@@ -73,11 +74,11 @@ static struct phase_sphere *open_sphere(void *context, struct waves *w, size_t n
 	return NULL;
 }
 
-/* Powers without phases: their roots stand as the real parts of the amplitudes. */
-static int incoherent(struct goa *g, double x, int n, double complex *s1, double complex *s2, double *norm)
+/* Powers without phases: their roots stand as the real parts of the amplitudes. blur: of waves; 0: no interference. */
+static int powers(struct goa *g, double x, double blur, int n, double complex *s1, double complex *s2, double *norm)
 {
 	double *power = malloc(2 * (size_t)n * sizeof *power);
-	int failed = !power || goa_incoherent(g, x, power, power + n, norm);
+	int failed = !power || (blur > 0 ? goa_blurred(g, x, blur, power, power + n) : goa_incoherent(g, x, power, power + n, norm));
 	for (int k = 0; !failed && k < n; k++) {
 		s1[k] = sqrt(power[k]);
 		s2[k] = sqrt(power[n + k]);
@@ -99,9 +100,9 @@ static int at(struct phase_sphere *known, int n, const double *theta, double com
 		known->q_sca = q.sca;
 		return 0;
 	}
-	if (s->context->which == PHASE_GOA)
+	if (s->context->which == PHASE_GOA && s->blur == 0)
 		goa_at(r->goa, s->x, s1, s2);
-	else if (incoherent(r->goa, s->x, n, s1, s2, &known->norm))
+	else if (powers(r->goa, s->x, s->context->which == PHASE_GOA ? s->blur : 0, n, s1, s2, &known->norm))
 		return -1;
 	/* Far below where GOA holds its extinction can be negative; the weight in an average cannot. */
 	if (!(known->q_sca > 0))
@@ -128,7 +129,7 @@ struct phase_model phase_model_goa_new(enum phase_model_goa which, int order, in
 	c->order = order;
 	c->threads = threads;
 	c->thread = xalloc((size_t)threads, sizeof *c->thread);
-	return (struct phase_model){ c, 0, open_sphere, at, close_sphere };
+	return (struct phase_model){ c, 0, which == PHASE_GOA, open_sphere, at, close_sphere };
 }
 
 void phase_model_goa_free(struct phase_model *model)

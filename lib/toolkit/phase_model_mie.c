@@ -139,7 +139,7 @@ struct phase_model phase_model_mie_new(const struct phase_model_mie *request)
 {
 	struct context *c = xalloc(1, sizeof *c);
 	c->request = request;
-	return (struct phase_model){ c, 1, open_sphere, at, close_sphere };
+	return (struct phase_model){ c, 1, 0, open_sphere, at, close_sphere };
 }
 
 void phase_model_mie_free(struct phase_model *model)

@@ -294,5 +294,7 @@ void phase_table(const struct phase_options *o, struct spheres *in, const struct
 		class_table_free(j.table);
 	if (o->angles)
 		check_peak(o, in);
+	if (!o->at_radius)
+		spheres_warn_classes(in);
 	free(j.theta);
 }

@@ -50,7 +50,9 @@ static double step(const struct size_integral *s, const struct size_part *p)
 
 static double narrowest(const struct size_integral *s, const struct size_part *p)
 {
-	double n = s->integrand.resonates ? fabs(creal(s->integrand.m)) : 1, damping = fabs(cimag(s->integrand.m)) / n;
+	if (!s->integrand.resonates)
+		return INFINITY;
+	double n = fabs(creal(s->integrand.m)), damping = fabs(cimag(s->integrand.m)) / n;
 	double fall = n > 1 ? 2 * (n * acosh(n) - sqrt(n * n - 1)) : 0, x = p->range.hi * s->integrand.x_of_um;
 	if (damping > 0 && fall > 0)    /* where the sum of both widths is least */
 		x = fmin(x, fmax(log(fall / damping) / fall, p->range.lo * s->integrand.x_of_um));

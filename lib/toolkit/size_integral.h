@@ -55,7 +55,8 @@ void size_integral_add(struct size_integral *s, struct size_range r, size_t grou
  * A change by a doubling is more than what is left of a smooth integrand, and of one that is met by chance, whose error falls as the
  * step does, 2.2 times that in root mean square. Of resonances narrower than the step it says little, since they
  * are met by chance: their share falls as the step does, so that the estimate is at least half of the one before until the step is
- * down to the narrowest resonance, by its width, exp(-2 x (n acosh n - sqrt(n^2 - 1))), or by absorption. */
+ * down to the narrowest resonance, by its width, exp(-2 x (n acosh n - sqrt(n^2 - 1))), or by absorption. A theory without any is
+ * smooth. */
 double size_integral_run(struct size_integral *s, double tolerance, double most);
 
 void size_integral_free(struct size_integral *s);

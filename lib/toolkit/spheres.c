@@ -15,7 +15,8 @@ struct spheres {
 	struct sizes *sizes;                 /* one of the two */
 	struct coeffs *coeffs;
 	int ncarried, carried_col[TAB_COLS];
-	int weight_col;                      /* -1: none */
+	int weight_col, lo_col, hi_col;      /* -1: none */
+	int classes;                         /* coefficients of a class with limits were read */
 	double x_max, area, area_x2;         /* of spheres_extent */
 };
 
@@ -24,6 +25,8 @@ static struct spheres *open_input(const struct sizes_options *o, const char *ope
 	struct spheres *s = xalloc(1, sizeof *s);
 	s->table = sizes_input(o, operand);
 	s->weight_col = s->table ? tab_find(s->table, &column_weight) : -1;
+	s->lo_col = s->table ? tab_find(s->table, &column_radius_lo) : -1;
+	s->hi_col = s->table ? tab_find(s->table, &column_radius_hi) : -1;
 	return s;
 }
 
@@ -130,6 +133,7 @@ int spheres_next(struct spheres *s, struct waves *out)
 		return 0;
 	const double *row = !s->table ? NULL : s->sizes ? sizes_row(s->sizes) : coeffs_row(s->coeffs);
 	add_extent(s, &out->size, row);
+	s->classes |= s->coeffs && s->lo_col >= 0 && s->hi_col >= 0 && row[s->lo_col] < row[s->hi_col];
 	if (!s->ncarried)
 		return 1;
 	out->carried = xalloc((size_t)s->ncarried, sizeof *out->carried);
@@ -145,6 +149,13 @@ int spheres_batch(struct spheres *s, struct waves out[SPHERES_BATCH])
 	while (n < SPHERES_BATCH && x < BATCH_X && spheres_next(s, &out[n]))
 		x += out[n++].size.x;
 	return n;
+}
+
+void spheres_warn_classes(const struct spheres *s)
+{
+	if (s->classes)
+		warn(tab_path(s->table), "coefficients of classes are those of their radii alone, and so is what is made of them: "
+		     "no mean over a class; give the sizes for that, or --at-radius if it is meant");
 }
 
 void spheres_close(struct spheres *s)

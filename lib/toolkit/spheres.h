@@ -44,6 +44,10 @@ int spheres_batch(struct spheres *s, struct waves out[SPHERES_BATCH]);
  * square, weighted by the column weight, if there is one, and r^2: what counts for the forward peak of their mean. */
 double spheres_extent(const struct spheres *s, int mean);
 
+/* spheres_warn_classes - a line where coefficients that were read are of classes with limits: they are those of a class's
+ * radius alone. */
+void spheres_warn_classes(const struct spheres *s);
+
 void spheres_close(struct spheres *s);
 
 #endif

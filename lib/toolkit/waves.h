@@ -7,6 +7,8 @@
 
 struct waves {
 	struct size size;            /* m is NaN where the waves were read */
+	double blur;                 /* not 0: only the mean over neighbouring sizes is wanted, in which does not interfere what parts
+	                              * by so many rad as x grows by 1; a theory may leave it out */
 	double *carried;             /* values of the columns that are carried through, see spheres_carried */
 	int lossless;                /* the particle does not absorb; n, a, b, lossless are good after waves_solve */
 	int n;

@@ -147,6 +147,24 @@ for model in goa goa+ incoherent; do
 		is '' "$differ" "$model, m = $m: the same bytes on every processor"
 	done
 done
+psd lognormal --median 40um --gsd 1.4 --classes 3 -o drops.psd
+differ=
+for cpu in $(cpus); do
+	MOTES_CPU=$cpu phase --tolerance 1e-2 --theta 0:180:0.37 -o "$cpu.tab" drops.psd && cmp scalar.tab "$cpu.tab" || differ="$differ $cpu"
+done
+is '' "$differ" 'means: the same bytes on every processor'
+# l1 A B: half the integral of |dp|, at its largest over the classes.
+l1() {
+	tabtxt --columns radius,theta,p "$1" >l1.a && tabtxt --columns p "$2" | paste l1.a - | awk 'NR > 1 {
+		t = $2 * atan2(0, -1) / 180; f = ($3 > $4 ? $3 - $4 : $4 - $3) * sin(t) * atan2(0, -1)
+		if ($1 == r) s[r] += (f + g) / 2 * (t - u); r = $1; g = f; u = t } END { for (r in s) if (s[r] > most) most = s[r]; print most }'
+}
+phase --tolerance 1e-4 -o fine.tab drops.psd
+for tolerance in 1e-2 1e-3; do
+	phase --tolerance $tolerance -o rough.tab drops.psd
+	l1 fine.tab rough.tab | awk -v t=$tolerance '{ exit !($1 > 0 && $1 < t) }'
+	ok $? "means within $tolerance"
+done
 goa-phase --model goa+ --particle water --wavelength 400nm,500nm,600nm --radius 5um:30um:4 --threads 1 -o one.tab
 goa-phase --model goa+ --particle water --wavelength 400nm,500nm,600nm --radius 5um:30um:4 --threads 3 -o three.tab
 cmp -s one.tab three.tab

@@ -66,6 +66,15 @@ done
 	mie-coeffs $water psd.tab | mie-phase --average >streamed.tab
 	tabcmp direct.tab streamed.tab >diff.txt 2>&1
 	ok $? 'and averaged'
+	mie-coeffs $water psd.tab -o classes.tab
+	for tool in xsect 'mie-phase --average --angles 5001'; do
+		$tool -o out.tab classes.tab 2>err
+		is 1 "$(grep -c 'classes.tab: coefficients of classes are those of their radii alone' err)" "$tool: coefficients give no mean over a class, and a line says so"
+		$tool --at-radius -o out.tab classes.tab 2>err
+		is '' "$(cat err)" 'unless that is meant'
+	done
+	psd mono --radius 3um | mie-coeffs $water | xsect -o out.tab 2>err
+	is '' "$(cat err)" 'or there are no classes'
 }
 xsect --method mie --particle 1.5 --size-parameter 1,10 >direct.tab
 mie-coeffs --particle 1.5 --size-parameter 1,10 | xsect >streamed.tab

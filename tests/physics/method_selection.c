@@ -287,8 +287,9 @@ static void absorption_of_large(void)
 			true_all += q[i].abs;
 			far += fabs(abs / q[i].abs - 1) > share;
 		}
-		ok(fabs(all / true_all - 1) < 2e-3 && far < N / 10, "cam, m = %g + %.0ei: absorption over sizes to %.1e, of %d further than %.1e: %d",
-		   creal(index[k]), cimag(index[k]), fabs(all / true_all - 1), N, share, far);
+		ok(fabs(all / true_all - 1) < 2e-3 && far < N / 10,
+		   "cam, m = %g + %.0ei: absorption over sizes to %.1e, of %d further than %.1e: %d", creal(index[k]), cimag(index[k]),
+		   fabs(all / true_all - 1), N, share, far);
 		method_table[METHOD_CAM].forget(own);
 	}
 }

@@ -1,6 +1,6 @@
-/* The estimate of the error of efficiencies, on narrow resonances, where half a unit in the last place of x or m does more than all other
- * rounding, and elsewhere: against series of their own in long doubles, summed by recurrences that have nothing in common with the library's but
- * the theory. MIE_ROWS=1 writes x, m, the error and its estimate. */
+/* The estimate of the error of efficiencies, on narrow resonances, where half a unit in the last place of x or m does more than
+ * all other rounding, and elsewhere: against series of their own in long doubles, summed by recurrences that have nothing in
+ * common with the library's but the theory. MIE_ROWS=1 writes x, m, the error and its estimate. */
 #include "optics/mie/mie.h"
 #include "support/tap.h"
 
@@ -109,8 +109,8 @@ static real denominator(int te, int l, real x, real m)
 	return parts(te, l, x, m, psi, chi, of_y).c;
 }
 
-/* The error of what x and m give, against the series there and with either moved by half a unit to either side, over its estimate; and from
- * coefficients. lifted: whether the estimate is twice what it is without resonances, or more. */
+/* The error of what x and m give, against the series there and with either moved by half a unit to either side, over its
+ * estimate; and from coefficients. lifted: whether the estimate is twice what it is without resonances, or more. */
 static double over(double x, double m, double *streamed, int *lifted)
 {
 	static const int move[][2] = { { 0, 0 }, { -1, 0 }, { 1, 0 }, { 0, -1 }, { 0, 1 } };
@@ -196,8 +196,8 @@ int main(void)
 		loose += beside && ratio * TIGHT < 1;
 	}
 	ok(worse < ELSEWHERE / 100 && most < 10, "on %d spheres anywhere: %d, at most %.2g of it", ELSEWHERE, worse, most);
-	ok(loose < lifted / 10, "where it is more than twice that of other rounding, on %d of them, it is %d times the error or more on %d", lifted,
-	   TIGHT, loose);
+	ok(loose < lifted / 10, "where it is more than twice that of other rounding, on %d of them, it is %d times the error or more on %d",
+	   lifted, TIGHT, loose);
 	worse = 0;
 	most = 0;
 	for (int i = 0; i < ELSEWHERE / 10; i++) {
@@ -205,6 +205,7 @@ int main(void)
 		worse += ratio > 1;
 		most = fmax(most, ratio);
 	}
-	ok(worse < ELSEWHERE / 10 / 20 && most < 10, "on %d spheres of large index: %d, at most %.2g of it", ELSEWHERE / 10, worse, most);
+	ok(worse < ELSEWHERE / 10 / 20 && most < 10, "on %d spheres of large index: %d, at most %.2g of it", ELSEWHERE / 10, worse,
+	   most);
 	return done_testing();
 }

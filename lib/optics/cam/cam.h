@@ -23,11 +23,11 @@ void cam_reach(struct cam *c, double x);
  * of them; without, or Re m < 1, ext lacks their ripple, and abs and g have its mean. */
 struct efficiencies cam_at(const struct cam *c, double x, int ripple);
 
-/* cam_error - estimate of the larger of the relative errors of ext and sca and the absolute error of g, of cam_at. Resonances and glories
- * beside rainbows exceed it for less than 1 percent of spheres that do not absorb, with ripple or without. abs is within it times ext, which
- * says little where |abs| is less: without ripple abs has the mean of resonances, right over sizes; of one size beside them it is too large by
- * some 2 (2/x)^(2/3) of itself where little is absorbed, of one on them too small; with ripple these stand beside their places by a part of
- * their widths. */
+/* cam_error - estimate of the larger of the relative errors of ext and sca and the absolute error of g, of cam_at. Resonances and
+ * glories beside rainbows exceed it for less than 1 percent of spheres that do not absorb, with ripple or without. abs is within
+ * it times ext, which says little where |abs| is less: without ripple abs has the mean of resonances, right over sizes; of one
+ * size beside them it is too large by some 2 (2/x)^(2/3) of itself where little is absorbed, of one on them too small; with
+ * ripple these stand beside their places by a part of their widths. */
 double cam_error(double x, double complex m);
 
 #endif

@@ -49,16 +49,23 @@ static void amplitudes(const struct goa *g, const struct goa_rays *r, double x, 
 	}
 }
 
+static int level_of(double x) { return (int)fmin(fmax(ceil(log2(x)), 0), GRIDS - 1); }
+
+int goa_reach(struct goa *g, double x)
+{
+	int level = level_of(x);
+	struct goa_norm_grid *grid = &g->grid[level];
+	return grid->rays.blocks.n ? 0 : goa_norm_grid_new(g->m, g->order, g->caustic, ldexp(1, level), grid);
+}
+
 /* goa_norm_grid_sum, negative when memory ran out. */
 static double integral(struct goa *g, int interfere, double x, double *along)
 {
-	int level = (int)fmin(fmax(ceil(log2(x)), 0), GRIDS - 1);
-	struct goa_norm_grid *grid = &g->grid[level];
 	struct goa_cap cap[GOA_ORDER_MAX + 1];
-	if (!grid->rays.blocks.n && goa_norm_grid_new(g->m, g->order, g->caustic, ldexp(1, level), grid))
+	if (goa_reach(g, x))
 		return -1;
 	caps(g, x, cap);
-	return goa_norm_grid_sum(g->lanes, grid, interfere, x, cap, along);
+	return goa_norm_grid_sum(g->lanes, &g->grid[level_of(x)], interfere, x, cap, along);
 }
 
 struct goa *goa_new(double complex m, int order)
@@ -125,6 +132,31 @@ int goa_incoherent(struct goa *g, double x, double *i1, double *i2, double *norm
 			i2[from + i] = s[1][i] + d[i] * d[i];
 		}
 	}
+	return 0;
+}
+
+int goa_blurred(struct goa *g, double x, double fastest, double *i1, double *i2)
+{
+	struct goa_cap cap[GOA_ORDER_MAX + 1];
+	const struct goa_rays *r = &g->asked;
+	const size_t *first = r->blocks.first;
+	size_t most = 0;
+	for (int b = 0; b < angle_blocks_count(r->blocks.n); b++)
+		most = first[b + 1] - first[b] > most ? first[b + 1] - first[b] : most;
+	double (*room)[GOA_WIDTH] = malloc((most + 1) * sizeof *room);
+	if (!room)
+		return -1;
+	caps(g, x, cap);
+	for (int b = 0, from = 0; from < r->blocks.n; b++, from += GOA_WIDTH) {
+		double s[2][GOA_WIDTH], d[GOA_WIDTH];
+		g->lanes->diffraction(&r->angles[b], x, d);
+		g->lanes->blurred(&r->packet[first[b]], first[b + 1] - first[b], &r->angles[b], d, x, cap, fastest * M_2_PI, room, s);
+		for (int i = 0; i < GOA_WIDTH && from + i < r->blocks.n; i++) {
+			i1[from + i] = fmax(s[0][i], 0);
+			i2[from + i] = fmax(s[1][i], 0);
+		}
+	}
+	free(room);
 	return 0;
 }
 

@@ -1,7 +1,7 @@
 /* The loops of GOA: compiled for each processor, BUILD the name of what comes out. */
 #include "optics/goa/goa_lanes.h"
 
-#include "optics/numerics/lane_math.h"
+#include "optics/numerics/smoothstep.h"
 
 #include <math.h>
 
@@ -60,6 +60,82 @@ static void incoherent(const struct goa_packet *k, size_t n, double x, const str
 	}
 }
 
+#define ABSENT 1e300     /* rate of what an angle does not have */
+
+/* share of a pair's interference, by how fast its phases part; returns 0 where no angle has any. */
+static int shares(double fastest, const double rate[GOA_WIDTH], double share[GOA_WIDTH])
+{
+	int64_t slow = 0;
+#pragma omp simd reduction(| : slow)
+	for (int i = 0; i < GOA_WIDTH; i++)
+		slow |= rate[i] < fastest;
+#pragma omp simd
+	for (int i = 0; i < GOA_WIDTH; i++) {
+		double first, second;
+		share[i] = smoothstep(fastest, -2 / fastest, rate[i], &first, &second);
+	}
+	return slow != 0;
+}
+
+static void with_diffraction(const struct goa_packet *k, const struct goa_angles *angles, const double d[GOA_WIDTH], double x,
+                             double fastest, const double size[GOA_WIDTH], double s[2][GOA_WIDTH])
+{
+	double rate[GOA_WIDTH], share[GOA_WIDTH];
+#pragma omp simd
+	for (int i = 0; i < GOA_WIDTH; i++) {
+		double edge = angles->sine[i] * M_2_PI, one = fabs(k->path[i] - edge), other = fabs(k->path[i] + edge);
+		rate[i] = lane_select(0, k->spread[i] * angles->root[i], lane_select(one, other, one, other), ABSENT);
+	}
+	if (!shares(fastest, rate, share))
+		return;
+#pragma omp simd
+	for (int i = 0; i < GOA_WIDTH; i++) {
+		double sine, cosine, twice = 2 * share[i] * size[i] * d[i];
+		lane_sincos(x * k->path[i] + k->quarters[i], &sine, &cosine);
+		s[0][i] += twice * (k->f[0][i] * cosine - k->f[1][i] * sine);
+		s[1][i] += twice * (k->f[2][i] * cosine - k->f[3][i] * sine);
+	}
+}
+
+static void of_pair(const struct goa_packet *k, const struct goa_packet *l, double x, double fastest,
+                    const double k_size[GOA_WIDTH], const double l_size[GOA_WIDTH], double s[2][GOA_WIDTH])
+{
+	double rate[GOA_WIDTH], share[GOA_WIDTH];
+#pragma omp simd
+	for (int i = 0; i < GOA_WIDTH; i++)
+		rate[i] = lane_select(0, k->spread[i] * l->spread[i], fabs(k->path[i] - l->path[i]), ABSENT);
+	if (!shares(fastest, rate, share))
+		return;
+#pragma omp simd
+	for (int i = 0; i < GOA_WIDTH; i++) {
+		double sine, cosine, twice = 2 * share[i] * k_size[i] * l_size[i];
+		lane_sincos(x * (k->path[i] - l->path[i]) + (k->quarters[i] - l->quarters[i]), &sine, &cosine);
+		s[0][i] += twice * ((k->f[0][i] * l->f[0][i] + k->f[1][i] * l->f[1][i]) * cosine -
+		                    (k->f[1][i] * l->f[0][i] - k->f[0][i] * l->f[1][i]) * sine);
+		s[1][i] += twice * ((k->f[2][i] * l->f[2][i] + k->f[3][i] * l->f[3][i]) * cosine -
+		                    (k->f[3][i] * l->f[2][i] - k->f[2][i] * l->f[3][i]) * sine);
+	}
+}
+
+static void blurred(const struct goa_packet *k, size_t n, const struct goa_angles *angles, const double d[GOA_WIDTH], double x,
+                    const struct goa_cap *cap, double fastest, double (*room)[GOA_WIDTH], double s[2][GOA_WIDTH])
+{
+	for (int i = 0; i < GOA_WIDTH; i++)
+		s[0][i] = s[1][i] = d[i] * d[i];
+	for (size_t a = 0; a < n; a++) {
+		if (!spreads(&k[a], x, cap, room[a]))
+			memset(room[a], 0, sizeof room[a]);
+		for (int i = 0; i < GOA_WIDTH; i++) {
+			double power = room[a][i] * room[a][i];
+			s[0][i] += power * (k[a].f[0][i] * k[a].f[0][i] + k[a].f[1][i] * k[a].f[1][i]);
+			s[1][i] += power * (k[a].f[2][i] * k[a].f[2][i] + k[a].f[3][i] * k[a].f[3][i]);
+		}
+		with_diffraction(&k[a], angles, d, x, fastest, room[a], s);
+		for (size_t b = 0; b < a; b++)
+			of_pair(&k[a], &k[b], x, fastest, room[a], room[b], s);
+	}
+}
+
 /* Argument from which on Bessel functions are taken from Hankel's asymptotics, Abramowitz and Stegun 9.2.5 to 9.2.10. */
 #define HANKEL 14
 
@@ -82,4 +158,4 @@ static void diffraction(const struct goa_angles *k, double x, double d[GOA_WIDTH
 	}
 }
 
-const struct goa_lanes BUILD = { .coherent = coherent, .incoherent = incoherent, .diffraction = diffraction };
+const struct goa_lanes BUILD = { .coherent = coherent, .incoherent = incoherent, .blurred = blurred, .diffraction = diffraction };

@@ -17,8 +17,9 @@
  *
  * From |y| on, E in place of D removes the terms (l+1)/z which cancel in b_l where z is small, so that no separate series is needed there.
  *
- * Where m is near 1, A is small: f - psi_{l-1}/psi_l = d_l/m + E_l(x) (1/m - 1) + (l+1)/x (1/m^2 - 1), for b_l m d_l + E_l(x) (m - 1), with
- * d_l = E_l(y) - E_l(x) by its own recurrence d_{l-1} = [(2l+1)/y - (2l+1)/x + d_l] E_{l-1}(x) E_{l-1}(y), has the digits of m - 1. */
+ * Where m is near 1, A is small: f - psi_{l-1}/psi_l = d_l/m + E_l(x) (1/m - 1) + (l+1)/x (1/m^2 - 1), for b_l m d_l + E_l(x)
+ * (m - 1), with d_l = E_l(y) - E_l(x) by its own recurrence d_{l-1} = [(2l+1)/y - (2l+1)/x + d_l] E_{l-1}(x) E_{l-1}(y), has
+ * the digits of m - 1. */
 #ifndef OPTICS_MIE_COEFFICIENTS_H
 #define OPTICS_MIE_COEFFICIENTS_H
 
@@ -140,8 +141,8 @@ INLINE struct parts parts_of(struct regime is, const struct constants *g, vec l,
 	return p;
 }
 
-/* a_l, b_l times a weight: [0] real part, [1] imaginary part; sca: weight (|a_l|^2 + |b_l|^2), absorbing spheres only; chi2: chi_l^2, where
- * some l >= x. */
+/* a_l, b_l times a weight: [0] real part, [1] imaginary part; sca: weight (|a_l|^2 + |b_l|^2), absorbing spheres only; chi2:
+ * chi_l^2, where some l >= x. */
 struct coefficients_of_order {
 	vec a[2], b[2], sca, chi2;
 };

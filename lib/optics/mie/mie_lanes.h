@@ -79,8 +79,8 @@ struct mie_lanes {
 	void (*block)(struct mie_block *b);
 	/* coefficients of a row, from psi .. im */
 	void (*waves)(const struct mie_row *r);
-	/* sums += those of a row, from its weighted coefficients, in order: the same bits as in a block. For moved and broad from x .. beyond and
-	 * chi, too; x = 0: without these */
+	/* sums += those of a row, from its weighted coefficients, in order: the same bits as in a block. For moved and broad from x
+	 * .. beyond and chi, too; x = 0: without these */
 	void (*sums)(const struct mie_row *r, struct mie_sums *sums);
 	/* Sums over l of s_l (pi_l + tau_l)/l and d_l (pi_l - tau_l)/l at MIE_ANGLES angles in [0, 90] deg given by c = 1 - cos theta.
 	 * Given:    k[n], the next orders; sides: with the factors for angles in front, for those behind, or first with these, then with those;

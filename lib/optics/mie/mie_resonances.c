@@ -11,8 +11,8 @@ static double contrast_of(double complex m)
 	return fabs((re - 1) * (re + 1) - im * im) + 2 * re * im;
 }
 
-/* By how much a wave c, which has its weight, moves the sums as t moves by up to so much: by itself, and with the wave before it in the one
- * for g. */
+/* By how much a wave c, which has its weight, moves the sums as t moves by up to so much: by itself, and with the wave before it
+ * in the one for g. */
 static double moved(double weight, const double c[2], const double before[2], double move)
 {
 	double unit = 1 / weight, re = c[0] * unit, im = fabs(c[1]) * unit, size2 = re * re + im * im, share, turned;
@@ -38,15 +38,16 @@ double mie_resonance(double x, double complex m, const struct mie_wave *w)
 
 double mie_resonances_rough(double x, int n, const double complex *a, const double complex *b)
 {
-	double old = -sin(x), chi = cos(x), sum = 0;
+	double old = -sin(x), chi = cos(x), sum = 0, ext = 0;
 	for (int l = 1; l <= n && fabs(chi) < CHI_MAX; l++) {
 		double next = (2.0 * l - 1) / x * chi - old;
 		old = chi;
 		chi = next;
-		if (l < x)
-			continue;
 		/* of whatever m, a factor of about m^2 - 1, or some times l^2/x^2 */
-		double weight = 2.0 * l + 1, before = weight - 2, move = MIE_OFF * x * 3 * (l / x) * (l / x) * chi * chi;
+		double weight = 2.0 * l + 1, before = weight - 2, contrast = 3 * (l / x) * (l / x), move = MIE_OFF * x * contrast * chi * chi;
+		ext += weight * (creal(a[l]) + creal(b[l]));
+		if (l < x || weight * (norm2(a[l]) + norm2(b[l])) * move < MIE_RESONANCES_FROM * DBL_EPSILON * (10 + x) * ext)
+			continue;
 		sum += moved(weight, (double[]){ weight * creal(a[l]), weight * cimag(a[l]) },
 		             (double[]){ before * creal(a[l - 1]), before * cimag(a[l - 1]) }, move) +
 		       moved(weight, (double[]){ weight * creal(b[l]), weight * cimag(b[l]) },

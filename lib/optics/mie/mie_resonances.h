@@ -4,7 +4,8 @@
  *
  *     |a_l'| = |1 - 1/m^2| |D_l(y)^2 + l(l+1)/x^2| / |A - iC|^2,    |b_l'| = |m^2 - 1| / |A - iC|^2.
  *
- * A resonance stands where x < l < |m| x. There C = 0, whence A = -1/chi_l and D_l(y)/m = chi_l'/chi_l; and Im 1/a_l = t passes 0 by
+ * A resonance stands where x < l < |m| x. There C = 0, whence A = -1/chi_l and D_l(y)/m = chi_l'/chi_l; and t = Im 1/a_l
+ * passes 0 by
  *
  *     t' = |1 - 1/m^2| |m^2 (chi_l'/chi_l)^2 + l(l+1)/x^2| chi_l^2,    for b_l  t' = |m^2 - 1| chi_l^2,
  *
@@ -17,6 +18,8 @@
 #include <float.h>
 
 #define MIE_OFF (1.25 * DBL_EPSILON)    /* relative error of x that does what rounding of x, of m and of the recurrences does */
+
+#define MIE_RESONANCES_FROM 3           /* in DBL_EPSILON (10 + x), what an order moves that counts: 3/2 of other rounding */
 
 /* Order l of a sphere; coefficients times 2l+1, re and im, and those of the order before times 2l-1. */
 struct mie_wave {

@@ -16,10 +16,10 @@ struct constants {
 
 /* What is known of resonances before the coefficients; see mie_resonances.h. */
 struct resonances {
-	/* an order counts beside all other rounding, being 3/2 of it or more, where (2l+1) (|a_l|^2 + |b_l|^2) chi_l^2, over the sum of (2l+1) Re(a + b) so far, is above;
-	 * INFINITY where none can: |m| x is too small, or absorption makes none narrow */
+	/* an order counts beside all other rounding, where (2l+1) (|a_l|^2 + |b_l|^2) chi_l^2, over the sum of (2l+1) Re(a + b) so
+	 * far, is above; INFINITY where none can: |m| x is too small, or absorption makes none narrow */
 	vec from;
-	vec broad;                           /* struct mie_sums; these stand below x where m is large */
+	vec broad;                           /* struct mie_sums; these stand below x where n > 3 */
 };
 
 #define LOWEST 2.5                           /* |m| x of the lowest one is above */
@@ -56,8 +56,9 @@ INLINE struct resonances resonances_of(int absorb, const struct constants *g)
 		contrast += g->m_im * (2.0 * mr + g->m_im);
 		none |= (absorbed > 4.0 * mr);
 	}
-	r.broad = PICK(none | (x <= 1.0), each(0), 0.75 * contrast);
-	r.from = PICK(none, each(INFINITY), 3.0 / (MIE_OFF / DBL_EPSILON) * (10.0 + x + r.broad) / (contrast * x));
+	/* up to n = 3 other rounding has them */
+	r.broad = PICK(none | (x <= 1.0) | (contrast <= 8.0), each(0), 0.75 * (contrast - 8.0));
+	r.from = PICK(none, each(INFINITY), MIE_RESONANCES_FROM / (MIE_OFF / DBL_EPSILON) * (10.0 + x + r.broad) / (contrast * x));
 	return r;
 }
 

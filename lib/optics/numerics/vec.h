@@ -1,5 +1,6 @@
-/* vec - LANES doubles in a vector, UNROLL vectors in turn, so that one hides the other's latency; for loops that are compiled for several
- * processors from one source. Nothing is contracted and no lane's value depends on another's: its bits are the same at every width. */
+/* vec - LANES doubles in a vector, UNROLL vectors in turn, so that one hides the other's latency; for loops that are compiled for
+ * several processors from one source. Nothing is contracted and no lane's value depends on another's: its bits are the same at
+ * every width. */
 #ifndef OPTICS_VEC_H
 #define OPTICS_VEC_H
 

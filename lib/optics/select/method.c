@@ -7,6 +7,7 @@
 #include "optics/goa/goa_plus.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 /* ------------------------------------------------------------------ efficiencies */
 
@@ -37,15 +38,50 @@ static struct efficiencies by_cam(const struct sphere *s, const void *prepared, 
 
 #define GOA_ORDER 3          /* rays of the phase function, as published; extinction has the ray of one chord only */
 
+/* Of an index: for extinction, and for the rays. */
+struct goa_prepared {
+	struct goa *first, *rays;
+	int failed;                /* memory ran out */
+};
+
+static void goa_forget(void *prepared)
+{
+	struct goa_prepared *p = prepared;
+	goa_free(p->first);
+	goa_free(p->rays);
+	free(p);
+}
+
+static void *goa_prepare(double complex m)
+{
+	struct goa_prepared *p = calloc(1, sizeof *p);
+	if (!p)
+		return NULL;
+	p->first = goa_new(m, 1);
+	p->rays = goa_new(m, GOA_ORDER);
+	if (p->first && p->rays)
+		return p;
+	goa_forget(p);
+	return NULL;
+}
+
+static void goa_extend(void *prepared, double x)
+{
+	struct goa_prepared *p = prepared;
+	p->failed |= goa_reach(p->first, x) || goa_reach(p->rays, x);
+}
+
 static struct efficiencies by_goa(const struct sphere *s, const void *prepared, int asked, double *error)
 {
-	double memory;             /* infinite, as *error is, where that ran out */
-	struct efficiencies rays = goa_efficiencies(s->x, s->m, GOA_ORDER, &memory), q = goa_efficiencies(s->x, s->m, 1, error);
-	(void)prepared, (void)asked;
+	const struct goa_prepared *p = prepared;
+	struct efficiencies rays = { 0 }, q = { 0 };
+	double norm;
+	(void)asked;
+	*error = INFINITY;
+	if (p->failed || goa_measure(p->rays, s->x, &rays, &norm, error) || goa_measure(p->first, s->x, &q, &norm, error))
+		return q;
 	q.g = rays.g;
 	q.back = rays.back;
-	if (isinf(memory))
-		*error = memory;
 	/* g lacks the light of four and more chords */
 	*error = 1.2 * *error + 0.01 * fmax(1, creal(s->m) / 2) * exp(-8 * s->x * cimag(s->m));
 	return q;
@@ -60,7 +96,7 @@ const struct method_row method_table[METHODS] = {
 	[METHOD_MIE] = { .name = "mie" },      /* its cost: the number of terms; it serves where no other does */
 	[METHOD_RAYLEIGH] = { .name = "rayleigh", .serves = METHOD_SMALL, .error = rayleigh_error, .efficiencies = by_rayleigh },
 	/* never for auto: CAM is cheaper and closer */
-	[METHOD_GOA] = { .name = "goa", .efficiencies = by_goa },
+	[METHOD_GOA] = { .name = "goa", .efficiencies = by_goa, .prepare = goa_prepare, .extend = goa_extend, .forget = goa_forget },
 	[METHOD_CAM] = { .name = "cam", .serves = METHOD_LARGE, .cost = 500, .first = 100000, .first_absorbing = 300000,
 		.error = cam_error, .efficiencies = by_cam, .prepare = cam_prepare, .extend = cam_extend, .forget = cam_forget },
 	/* after CAM, which is closer and, once prepared, hardly dearer */
