@@ -49,6 +49,7 @@ for phase in hg goa; do
 		scene box.scene "$medium" 32 "lights = ( $(box 6 1.0) );"
 		pair box.scene 130 $t
 		agree "furnace of a box of quads, $phase, $t" 1 0 1e-3 pair1.exr pair2.exr
+		[ $phase = goa ] || continue        # physics/render.t has hg, more exactly
 		scene suns.scene "$medium" 32 'lights = ( { type = "sun"; direction = [0.0, -1.0, 0.2]; irradiance = 3.14159265358979; angle = 180.0; },
 			{ type = "sun"; direction = [0.0, 1.0, -0.2]; irradiance = 3.14159265358979; angle = 180.0; } );'
 		pair suns.scene 130 $t
