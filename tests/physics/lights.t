@@ -19,7 +19,7 @@ box() {
 	}'
 }
 # rgb WHAT FILE: of red, green and blue, to six decimals
-# shellcheck disable=SC2046
+# shellcheck disable=SC2046,SC2183
 rgb() { printf '%.6f %.6f %.6f' $(channels "$1" "$2" R G B); }
 # flat FILE COLOUR: every pixel is of that colour
 flat() { is "$2 $2" "$(rgb min "$1") $(rgb max "$1")" "$3"; }
