@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 struct statistics {
@@ -79,5 +80,6 @@ int main(int argc, char **argv)
 	putchar('\n');
 	for (int f = 0; f < files; f++)
 		exr_free(&image[f]);
+	free(image);
 	return 0;
 }

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 int main(int argc, char **argv)
@@ -30,8 +31,10 @@ int main(int argc, char **argv)
 			mean += e.channel[i].data[p] / pixels;
 		}
 		printf("%s %.6f\n", name, mean);
+		free(light);
 		n++;
 	}
 	printf("worst %.3g\n", n ? worst : 1);
+	exr_free(&e);
 	return 0;
 }
