@@ -1,3 +1,4 @@
+# shellcheck shell=sh
 # The paper's attenuation and ours: mean transmittance of Poisson particles at optical depth 2, against C/A, from the kernels' own
 # functions, with the standard errors of the measured points and the curves of theory.
 # usage, by tests/bench/run: attenuation.sh OUT

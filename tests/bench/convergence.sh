@@ -1,3 +1,4 @@
+# shellcheck shell=sh
 # Clouds of 10^3 to 10^6 particles of the same extinction against the continuous medium, 16 of each, rendered by explicit and fat-ray: the
 # rms over blocks of 8 x 8 pixels without Monte Carlo noise, and the mean. tests/support/media.sh says what they look like.
 # Prints convergence.tsv, a line PASS or FAIL for each transport, and draws convergence.png and .svg. Required: slope -0.5 +- 0.1, the mean
@@ -5,6 +6,7 @@
 # usage, by tests/bench/run: convergence.sh OUT
 out=$1
 bench=$(cd "$(dirname "$0")" && pwd)
+# shellcheck source=tests/support/media.sh
 . "$bench/../support/media.sh"
 clouds_setup
 continuum 2048

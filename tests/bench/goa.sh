@@ -12,6 +12,7 @@ out=$1
 "$MOTES_TESTS/bench/goa" | tee goa.tsv
 
 bench=$(cd "$(dirname "$0")" && pwd)
+# shellcheck source=tests/bench/timing
 . "$bench/timing"
 printf '# m\tx\tcommand\ttime\n' | tee tools.tsv
 for m in 1.33 1.5+0.1i; do

@@ -1,3 +1,4 @@
+# shellcheck shell=sh
 # What lanes are worth: the speed of each code path of the C backend (MOTES_CPU) over that of its scalar path, one thread, CPU time, for
 # the four transports; of OpenCL over C, two threads each, by the clock; and how long OpenCL takes to compile, and to start when it has.
 # Media: continuous in a homogeneous cube, grid in a density grid of 128^3, explicit and fat-ray in 10^5 particles of optical depth 2;
@@ -7,7 +8,9 @@
 # usage, by tests/bench/run: [BENCH_SECONDS=3] lanes.sh OUT
 out=$1
 bench=$(cd "$(dirname "$0")" && pwd)
+# shellcheck source=tests/support/media.sh
 . "$bench/../support/media.sh"
+# shellcheck source=tests/bench/timing
 . "$bench/timing"
 seconds=${BENCH_SECONDS:-3}
 export POCL_MAX_PTHREAD_COUNT=2
@@ -64,7 +67,7 @@ printf '# transport\twhat\tsamples\ts\tspeed, as a ratio\tto\n' >lanes.tsv
 		unset MOTES_CPU
 		n=$((2 * $(samples_for "$seconds" vrender "$t.scene" --transport "$t")))
 		vrender "$t.scene" --transport "$t" --backend opencl --samples "$n" -o cl.exr      # fills the cache
-		for turn in 1 2 3; do      # what else the machine does should not hit one of the two alone: the best of three in turn
+		for _ in 1 2 3; do      # what else the machine does should not hit one of the two alone: the best of three in turn
 			render_time -w "$n" vrender "$t.scene" --transport "$t" --threads 2 >>"c.$t"
 			render_time -w "$n" vrender "$t.scene" --transport "$t" --backend opencl >>"cl.$t"
 		done

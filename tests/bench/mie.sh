@@ -1,3 +1,4 @@
+# shellcheck shell=sh
 # Lorenz-Mie theory: error and time of xsect and mie-phase beside the codes of PyPI (miepython with its JIT, lxmie, scattnlay) and the
 # textbook's loop in C (mie_textbook.c, -O3 -march=native). One thread, CPU time, one run.
 #
@@ -14,6 +15,7 @@
 # usage, by tests/bench/run: [MOTES_PEERS=VENV] [MOTES_ARCHIVE=libmotes.a] [MOTES_CPU=..] [BENCH_QUICK=1] mie.sh OUT
 out=$1
 bench=$(cd "$(dirname "$0")" && pwd)
+# shellcheck source=tests/bench/timing
 . "$bench/timing"
 python=${MOTES_PEERS:-none}/bin/python
 peer() { "$python" "$bench/mie_peers.py" "$@"; }
@@ -190,7 +192,7 @@ for m in '1.33 0' '1.5 0.1'; do
 done
 book=$(for _ in 1 2 3; do ./textbook 1.33 0 2900 3100 10 1801 2>err; done | least)
 own=$(per "$(tool 2900 3100 40 mie-phase --direct --angles 1801 --particle 1.33)" 1801 "$(terms 2900 3100)")
-need 'mie-phase --direct --angles 1801, 2900:3100:40, a term and angle' "$(ratio "$book" "$own")" "$(ratio 14 $half)"
+need 'mie-phase --direct --angles 1801, 2900:3100:40, a term and angle' "$(ratio "$book" "$own")" "$(ratio 14 "$half")"
 
 printf '# x\tangles\tsizes\ts, --direct\ts, all at once\tratio\n' >mie_series.tsv
 for c in '10000 10100 20 18001 2' '100000 100000 1 180001 10'; do

@@ -1,3 +1,4 @@
+# shellcheck shell=sh
 # The cost of an explicit ray against the number of particles, 10^4 to 10^7 of the same extinction: a cube of side 2 m, optical depth 2, seen
 # from the front by a camera all of whose rays cross it, particles that only absorb: a sample is one ray, which ends at its first particle.
 # A ray crosses cells of medium-bake's grid; on the average (1 - e^-2)/2 of those from face to face before it meets a particle.
@@ -6,7 +7,9 @@
 # usage, by tests/bench/run: [BENCH_SECONDS=3] [BENCH_PARTICLES='1e4 1e5 1e6 1e7'] particles.sh OUT
 out=$1
 bench=$(cd "$(dirname "$0")" && pwd)
+# shellcheck source=tests/support/media.sh
 . "$bench/../support/media.sh"
+# shellcheck source=tests/bench/timing
 . "$bench/timing"
 seconds=${BENCH_SECONDS:-3}
 sizes 1 >one.psd

@@ -1,3 +1,4 @@
+# shellcheck shell=sh
 # Phase functions: error against time, of the table that mie-phase and goa-phase write by default.
 #
 # error: half the integral over the sphere of |p - q|: p is the table, linear between its angles as medium-bake takes it, q is
@@ -12,6 +13,7 @@ out=$1
 sizes='30.49 100.49 300.49 1000.49 3000.49 10000.49'     # between the resonances, which sit elsewhere for every m
 
 bench=$(cd "$(dirname "$0")" && pwd)
+# shellcheck source=tests/bench/timing
 . "$bench/timing"
 
 # a_size TOOL M X: seconds for one size, from so many of them in one run that the clock's ticks of 10 ms are fine enough; the

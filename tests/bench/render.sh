@@ -1,3 +1,4 @@
+# shellcheck shell=sh
 # vrender against Mitsuba 3 on four scenes, one thread each: efficiency = 1 / (relMSE x seconds of CPU time).
 #
 # relMSE: the mean over pixels of (image - reference)^2 / (reference^2 + 0.01), imgcmp's, less what is the reference's own. That is an image
@@ -19,7 +20,9 @@
 #        [BENCH_SCENES='isotropic c1 cloud sparse'] render.sh OUT
 out=$1
 bench=$(cd "$(dirname "$0")" && pwd)
+# shellcheck source=tests/support/media.sh
 . "$bench/../support/media.sh"
+# shellcheck source=tests/bench/timing
 . "$bench/timing"
 export POCL_MAX_PTHREAD_COUNT=1
 scenes=${BENCH_SCENES:-isotropic c1 cloud sparse}

@@ -1,3 +1,4 @@
+# shellcheck shell=sh
 # Slabs and half spaces, all that tests/data has: the table of discrete ordinates at a standard error of 1e-3, eight values of it at
 # 1e-4, Chandrasekhar's half spaces at 1e-3. Prints slab.tsv and a line PASS or FAIL for each of the three.
 # T below 0.002 is rendered, but judged by 4.5 times the largest spread that paths of its mean can have, and not in the rms.
@@ -5,6 +6,7 @@
 out=$1
 bench=$(cd "$(dirname "$0")" && pwd)
 data=$bench/../data
+# shellcheck source=tests/support/media.sh
 . "$bench/../support/media.sh"
 for g in 0 0.5 0.75 0.875; do hg $g >hg$g.phase; done
 seed=0      # from one value to the next it goes on by 2; never chosen

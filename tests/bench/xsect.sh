@@ -11,6 +11,7 @@
 # usage, by tests/bench/run: [BENCH_QUICK=1] xsect.sh OUT
 out=$1
 bench=$(cd "$(dirname "$0")" && pwd)
+# shellcheck source=tests/bench/timing
 . "$bench/timing"
 sizes=20000 spheres=20000 runs='1 2 3'
 [ -z "${BENCH_QUICK:-}" ] || sizes=2000 spheres=2000 runs='1 2'

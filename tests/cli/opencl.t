@@ -106,6 +106,7 @@ damaged() {
 	cmp good "$kept" && unused cl -o cl.exr 2>err && same
 	ok $? "$label: and kept again"
 }
+# shellcheck disable=SC2317    # called by damaged
 flip() { printf X | dd of="$kept" bs=1 seek="$1" conv=notrunc status=none; }
 damaged 'a damaged binary' flip $(($(stat -c %s good) - 1000))
 damaged 'a damaged key' flip 100

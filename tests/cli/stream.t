@@ -72,6 +72,7 @@ interrupted() {
 	rm pipe
 	is "143 " "$status $(ls -A "$1")" "$3"
 }
+# shellcheck disable=SC2317    # called by interrupted
 plainly() { exec "$@"; }
 # shellcheck disable=SC2016
 hide='mount -t tmpfs none /proc/$$/fd && exec "$@"'

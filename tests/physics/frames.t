@@ -48,7 +48,7 @@ particles --psd one.psd --count 40000 --box 2m,2m,2m | medium-bake --xsect small
 for t in continuous grid explicit; do
 	[ $t = continuous ] && medium=grey.medium || medium=grey-grains.medium
 	for d in 1e3 1e4 1e5 1e6 1e7 1e8; do
-		awk -v d=$d -v m=$medium 'BEGIN {
+		awk -v d="$d" -v m="$medium" 'BEGIN {
 			printf "camera = { position = [%.9g.0, %.9g.0, %.9g.0]; target = [0.0, 0.0, 0.0]; fov = %.12g; resolution = [32, 32]; };\n", 0, 0, d, 360 / atan2(0, -1) * atan2(0.9, d)
 			printf "medium = { file = \"%s\"; }; lights = ( { type = \"sun\"; direction = [-1, 0, 0]; irradiance = 3; } );\n", m }' |
 			sed 's/e+\([0-9]*\)\.0/e+\1/g' >far.scene

@@ -19,7 +19,7 @@ box() {
 	}'
 }
 # rgb WHAT FILE: of red, green and blue, to six decimals
-# shellcheck disable=SC2046
+# shellcheck disable=SC2046,SC2183
 rgb() { printf '%.6f %.6f %.6f' $(channels "$1" "$2" R G B); }
 # flat FILE COLOUR: every pixel is of that colour
 flat() { is "$2 $2" "$(rgb min "$1") $(rgb max "$1")" "$3"; }
@@ -49,6 +49,7 @@ for phase in hg goa; do
 		scene box.scene "$medium" 32 "lights = ( $(box 6 1.0) );"
 		pair box.scene 130 $t
 		agree "furnace of a box of quads, $phase, $t" 1 0 1e-3 pair1.exr pair2.exr
+		[ $phase = goa ] || continue        # physics/render.t has hg, more exactly
 		scene suns.scene "$medium" 32 'lights = ( { type = "sun"; direction = [0.0, -1.0, 0.2]; irradiance = 3.14159265358979; angle = 180.0; },
 			{ type = "sun"; direction = [0.0, 1.0, -0.2]; irradiance = 3.14159265358979; angle = 180.0; } );'
 		pair suns.scene 130 $t

@@ -32,7 +32,7 @@ for s in 1e-7 1e-4 0.02; do
 		# chance alone would have a relative error of (4096 x 2 s)^-1/2, 1.1 at s = 1e-4
 		error=$(channels rms thin1.exr G - thin2.exr G | awk -v m="$(channels mean thin1.exr G)" '{ print $1 / sqrt(2) / m }')
 		[ $s = 1e-7 ] && most=0.6 || most=0.03
-		awk -v e="$error" -v most=$most 'BEGIN { exit !(e < most) }'
+		awk -v e="$error" -v most="$most" 'BEGIN { exit !(e < most) }'
 		ok $? "$m, $s/m: a pixel's relative error $error"
 		for c in 'R 1.2' 'G 1.1' 'B 1.0'; do
 			want=$(want "$(awk -v s=$s -v f="${c#* }" 'BEGIN { print s * f }')")

@@ -31,9 +31,9 @@ view map thin 'lights = ( { type = "environment"; file = "sky.exr"; } );'
 # By 200 seeds every ratio is in 0.96 to 1.06. By 40, of which both variances are known to some 3 %, and one in ten to 6 %, none comes near
 # the limits. Taken as independent the samples would give up to 7.
 {
-	"$MOTES_BUILD/tests/support/variance_seeds" 3 1 40 absorbing.scene thin.scene thick.scene forward.scene suns.scene map.scene many.scene
-	"$MOTES_BUILD/tests/support/variance_seeds" 0 1 40 grains.scene
-	"$MOTES_BUILD/tests/support/variance_seeds" 2 1 40 grid.scene
+	variance_seeds 3 1 40 absorbing.scene thin.scene thick.scene forward.scene suns.scene map.scene many.scene
+	variance_seeds 0 1 40 grains.scene
+	variance_seeds 2 1 40 grid.scene
 } >ratios
 is 45 "$(wc -l <ratios | tr -d ' ')" 'nine scenes, five ranges of samples'
 while IFS='	' read -r what ratio; do
