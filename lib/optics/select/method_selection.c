@@ -182,8 +182,8 @@ static int by_mie(int n, const struct sphere *s, struct efficiencies *q, double 
 			x[k] = s[i].x;
 			m[k++] = s[i].m;
 		}
-	failed = mie_many(some, x, m, some_q, some_error);
-	for (int i = 0, k = 0; i < n && !failed; i++)
+	failed = some == n ? mie_many(n, x, m, q, error) : mie_many(some, x, m, some_q, some_error);
+	for (int i = 0, k = 0; i < n && some < n && !failed; i++)
 		if (used[i] == METHOD_MIE) {
 			q[i] = some_q[k];
 			error[i] = some_error[k++];
