@@ -184,7 +184,7 @@ FN mv path_arrive(const struct scene *s, const struct volume *v, const struct ta
 			path_alpha(s, t, p, seen, taken);
 	}
 	fv passed[CARRIED], kept_pdf[CARRIED];
-	EACH_WAVE(j)
+	EACH_WAVE(j)    /* unused where none is thin, which a compiler does not see */
 		passed[j] = kept_pdf[j] = FV(0.f);
 	if (any(thin))
 		path_pass(s, v, t, p, thin, passed, kept_pdf);

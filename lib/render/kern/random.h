@@ -3,9 +3,9 @@
  *
  * Where an integrand is smooth, numbers that fill space evenly do better than independent ones: the samples of a pixel are points of an
  * extensible Korobov lattice (Hickernell, Hong, L'Ecuyer and Lemieux 2000), in the order of their reversed bits, moved in every
- * dimension by a random shift. Each sample is uniform, so that any of them give the right mean. The points of one lattice are not
- * independent, and their spread does not tell the variance of their mean. So the samples are two replicates of the lattice, each with a
- * shift of its own, whose means tell it. */
+ * dimension by a random shift (Cranley and Patterson 1976). Each sample is uniform, so that any of them give the right mean. The points
+ * of one lattice are not independent, and their spread does not tell the variance of their mean. So the samples are two replicates of
+ * the lattice, each with a shift of its own, whose means tell it. */
 #ifndef KERN_RANDOM_H
 #define KERN_RANDOM_H
 
