@@ -39,15 +39,18 @@ NATIVE = $(shell $(CC) -march=native -dM -E -x c /dev/null 2>/dev/null | awk '{ 
 	has["__AVX2__"] && has["__BMI2__"] && has["__FMA__"] ? "v3" : has["__SSE4_2__"] && has["__POPCNT__"] ? "v2" : "" }')
 BUILT := $(filter $(if $(filter all,$(CPUS)),$(ALL_CPUS),scalar $(subst native,$(NATIVE),$(CPUS))),$(ALL_CPUS))
 
-# The renderer's kernels, for each processor and number of wavelengths and channels (any: spectral ones, too): LANES and the instructions.
+# The renderer's kernels, for each processor (LANES and the instructions) and number of wavelengths and channels (any: spectral ones,
+# too), and once more for continuous media without a forward peak, which know no steps to wait for.
 FLOATS_scalar = -DLANES=1
 FLOATS_v2 = -DLANES=4 -march=x86-64-v2
 FLOATS_v3 = -DLANES=8 -march=x86-64-v3
 FLOATS_v4 = -DLANES=16 -march=x86-64-v4 -mprefer-vector-width=512
-WAVES_any =
-WAVES_1 = -DWAVES=1 -DCHANNELS=1 -DSPECTRAL=0
-WAVES_3 = -DWAVES=3 -DCHANNELS=3 -DSPECTRAL=0
-KERNEL_OBJECTS = $(foreach cpu,$(BUILT),$(foreach w,any 1 3,obj/render/kernels_c/$(w)_$(cpu).o))
+CONSTANTS_any =
+CONSTANTS_1 = -DWAVES=1 -DCHANNELS=1 -DSPECTRAL=0
+CONSTANTS_3 = -DWAVES=3 -DCHANNELS=3 -DSPECTRAL=0
+CONSTANTS_smooth1 = $(CONSTANTS_1) -DTRANSPORT=TRANSPORT_CONTINUOUS -DPEAK=0
+CONSTANTS_smooth3 = $(CONSTANTS_3) -DTRANSPORT=TRANSPORT_CONTINUOUS -DPEAK=0
+KERNEL_OBJECTS = $(foreach cpu,$(BUILT),$(foreach known,any 1 3 smooth1 smooth3,obj/render/kernels_c/$(known)_$(cpu).o))
 
 # Loops of lib/optics in doubles, *_lanes.c, for each processor. GOA's: without -fno-tree-slp-vectorize gcc contracts complex products
 # whatever -ffp-contract says.
@@ -83,7 +86,7 @@ $(1)/obj/%.o: lib/%.c | $(B)/gen/cpu_builds.h
 $(addprefix $(1)/,$(KERNEL_OBJECTS)): $(1)/obj/render/kernels_c/%.o: lib/render/kernels_c.c | $(B)/gen/cpu_builds.h
 	@mkdir -p $$(@D)
 	$$(call say,CC $$@)$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $(if $(2),$(2) -O1,-O3) -g1 -Wno-unused-parameter $$(FLOATS_$$(word 2,$$(subst _, ,$$*))) \
-		$$(WAVES_$$(word 1,$$(subst _, ,$$*))) -DRENDER=render_$$* -MMD -MP -c -o $$@ $$<
+		$$(CONSTANTS_$$(word 1,$$(subst _, ,$$*))) -DRENDER=render_$$* -MMD -MP -c -o $$@ $$<
 $(foreach loop,$(LOOPS),$(BUILT:%=$(1)/$(loop:lib/%.c=obj/%)/%.o): $(1)/$(loop:lib/%.c=obj/%)/%.o: $(loop) | $(B)/gen/cpu_builds.h
 	@mkdir -p $$(@D)
 	$$(call say,CC $$@)$$(CC) $$(OWN_CFLAGS) $$(CFLAGS) $$(FLAGS_$(basename $(notdir $(loop)))) $(if $(2),$(2) -O1) $$(DOUBLES_$$*) \

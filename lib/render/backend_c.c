@@ -8,10 +8,12 @@
 
 static render_fn *build_for(const struct scene *s)
 {
-	render_fn *const any[CPU_LEVELS] = CPU_BUILDS(render_any), *const one[CPU_LEVELS] = CPU_BUILDS(render_1);
-	render_fn *const three[CPU_LEVELS] = CPU_BUILDS(render_3);
+	render_fn *const any[CPU_LEVELS] = CPU_BUILDS(render_any);
+	render_fn *const one[2][CPU_LEVELS] = { CPU_BUILDS(render_1), CPU_BUILDS(render_smooth1) };
+	render_fn *const three[2][CPU_LEVELS] = { CPU_BUILDS(render_3), CPU_BUILDS(render_smooth3) };
 	int plain = s->channels == s->n_waves && !s->spectral, level = cpu_level();
-	return plain && s->n_waves == 1 ? one[level] : plain && s->n_waves == 3 ? three[level] : any[level];
+	int smooth = s->volume.transport == TRANSPORT_CONTINUOUS && !(s->volume.peak > 0.f);
+	return plain && s->n_waves == 1 ? one[smooth][level] : plain && s->n_waves == 3 ? three[smooth][level] : any[level];
 }
 
 void render_c(const struct setup *u, struct film *f, uint32 pixel, uint32 pixels, uint32 first, uint32 n, int threads)

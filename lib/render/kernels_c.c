@@ -1,4 +1,4 @@
-/* One build of the kernels: compiled many times, with RENDER the name, LANES, and perhaps WAVES, CHANNELS and SPECTRAL. */
+/* One build of the kernels: compiled many times, with RENDER the name, LANES, and perhaps constants (kern/constants.h). */
 #include "render/kern/render.h"
 #include "render/kernels_c.h"
 

@@ -1,4 +1,5 @@
-/* kernels_c - the C builds of the kernels: for each processor, and for 1 and 3 wavelengths apart from any number of them. */
+/* kernels_c - the C builds of the kernels: for each processor, for 1 and 3 wavelengths apart from any number of them, and for
+ * continuous media without a forward peak (smooth) apart from all. */
 #ifndef RENDER_KERNELS_C_H
 #define RENDER_KERNELS_C_H
 
@@ -12,5 +13,7 @@ typedef void render_fn(const struct scene *s, const struct tables *t, int64 *fil
 CPU_DECLARE(render_fn, render_any);
 CPU_DECLARE(render_fn, render_1);
 CPU_DECLARE(render_fn, render_3);
+CPU_DECLARE(render_fn, render_smooth1);
+CPU_DECLARE(render_fn, render_smooth3);
 
 #endif

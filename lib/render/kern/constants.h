@@ -1,5 +1,5 @@
-/* constants - what a build may have as constants; the rest is as in the scene. In C the number of wavelengths and channels, in OpenCL all
- * that many a branch depends on. */
+/* constants - what a build may have as constants; the rest is as in the scene. In C the number of wavelengths and channels, and that a
+ * medium is continuous and without a peak; in OpenCL all that many a branch depends on. */
 #ifndef KERN_CONSTANTS_H
 #define KERN_CONSTANTS_H
 
@@ -7,12 +7,18 @@
 
 #ifdef TRANSPORT
 #define TRANSPORT_OF(v) TRANSPORT
+#else
+#define TRANSPORT_OF(v) ((v)->transport)
+#endif
+#ifdef PEAK
 #define HAS_PEAK(v) PEAK
+#else
+#define HAS_PEAK(v) ((v)->peak > 0.f)
+#endif
+#ifdef COUNTED
 #define IS_ISOTROPIC(v) ALL_ISOTROPIC
 #define IS_COUNTED(v) COUNTED
 #else
-#define TRANSPORT_OF(v) ((v)->transport)
-#define HAS_PEAK(v) ((v)->peak > 0.f)
 #define IS_ISOTROPIC(v) ((v)->isotropic)
 #define IS_COUNTED(v) ((v)->counted)
 #define HAS_GROUND (s->surfaces.has_ground)
