@@ -40,14 +40,14 @@ NATIVE = $(shell $(CC) -march=native -dM -E -x c /dev/null 2>/dev/null | awk '{ 
 BUILT := $(filter $(if $(filter all,$(CPUS)),$(ALL_CPUS),scalar $(subst native,$(NATIVE),$(CPUS))),$(ALL_CPUS))
 
 # The renderer's kernels, for each processor (LANES and the instructions) and number of wavelengths and channels (any: spectral ones,
-# too), and once more for continuous media without a forward peak, which know no steps to wait for.
+# and several media, too), and once more for continuous media without a forward peak, which know no steps to wait for.
 FLOATS_scalar = -DLANES=1
 FLOATS_v2 = -DLANES=4 -march=x86-64-v2
 FLOATS_v3 = -DLANES=8 -march=x86-64-v3
 FLOATS_v4 = -DLANES=16 -march=x86-64-v4 -mprefer-vector-width=512
 CONSTANTS_any =
-CONSTANTS_1 = -DWAVES=1 -DCHANNELS=1 -DSPECTRAL=0
-CONSTANTS_3 = -DWAVES=3 -DCHANNELS=3 -DSPECTRAL=0
+CONSTANTS_1 = -DVOLUMES=1 -DWAVES=1 -DCHANNELS=1 -DSPECTRAL=0
+CONSTANTS_3 = -DVOLUMES=1 -DWAVES=3 -DCHANNELS=3 -DSPECTRAL=0
 CONSTANTS_smooth1 = $(CONSTANTS_1) -DTRANSPORT=TRANSPORT_CONTINUOUS -DPEAK=0
 CONSTANTS_smooth3 = $(CONSTANTS_3) -DTRANSPORT=TRANSPORT_CONTINUOUS -DPEAK=0
 KERNEL_OBJECTS = $(foreach cpu,$(BUILT),$(foreach known,any 1 3 smooth1 smooth3,obj/render/kernels_c/$(known)_$(cpu).o))

@@ -1,4 +1,4 @@
-/* vrender - render a scene: a medium under its lights, by path tracing. */
+/* vrender - render a scene: its media under its lights, by path tracing. */
 #include "base/die.h"
 #include "base/opt.h"
 #include "base/out.h"
@@ -72,12 +72,12 @@ static void render(const struct setup *setup, struct film *film, struct cl *cl, 
 }
 
 /* Particles are not there to be looked at from inside: a camera in one is likely to be misplaced. */
-static void check_camera(const char *path, const struct scenefile *f, const struct medium *m)
+static void check_camera(const char *path, const struct scenefile *f, const double *origin, const struct medium *m)
 {
 	double at[3];
 	size_t one = 0;
 	for (int a = 0; a < 3; a++)
-		at[a] = f->position[a] - f->medium_position[a];
+		at[a] = f->position[a] - origin[a];
 	size_t n = particle_grid_around(m, at, &one);
 	if (!n)
 		return;
@@ -86,8 +86,56 @@ static void check_camera(const char *path, const struct scenefile *f, const stru
 	memcpy(&class, p + 3, sizeof class);
 	char *others = n > 1 ? xtext("%zu particles, one of them", n) : xtext("a particle");
 	warn(path, "camera.position is inside %s of radius %g um at [%g, %g, %g], which is not seen as from inside", others, m->radius[class],
-	     p[0] + f->medium_position[0], p[1] + f->medium_position[1], p[2] + f->medium_position[2]);
+	     p[0] + origin[0], p[1] + origin[1], p[2] + origin[2]);
 	free(others);
+}
+
+/* A medium's transport: of the command line, of the scene, or by its kind. */
+static int transport_of(const struct scene_medium *m, const struct medium *medium, int asked, int verbose)
+{
+	int transport = asked >= 0 ? asked : m->transport;
+	const char *why = asked >= 0 ? "as asked for" : "as the scene says";
+	if (transport < 0) {
+		transport = medium->kind == MEDIUM_PARTICLES ? TRANSPORT_EXPLICIT : medium_even(medium) ? TRANSPORT_CONTINUOUS : TRANSPORT_GRID;
+		why = transport == TRANSPORT_EXPLICIT ? "the default for particles" : transport == TRANSPORT_GRID ?
+		    "the default for a density that varies" : "the default for an even density";
+	} else if ((transport == TRANSPORT_EXPLICIT || transport == TRANSPORT_FAT_RAY) && medium->kind != MEDIUM_PARTICLES) {
+		die(m->file, "has no particles, which explicit and fat-ray need; bake it from particles, or render it as grid or continuous");
+	}
+	if (verbose)
+		warn(m->file, "%s, %s: %zu particles, %d classes, %d wavelengths, mean optical depth %.4g along the shortest axis",
+		     scene_transport[transport], why, medium->n_particles, medium->n_classes, medium->n_waves, medium_depth(medium));
+	return transport;
+}
+
+static void open_media(const struct scenefile *f, struct medium_file *baked, const struct medium **medium)
+{
+	for (int i = 0; i < f->n_media; i++) {
+		medium_file_open(f->medium[i].file, &baked[i]);
+		medium[i] = &baked[i].medium;
+		if (medium[i]->n_waves != medium[0]->n_waves)
+			die(f->medium[i].file, "has %d wavelengths, and %s %d: the media of a scene need the same", medium[i]->n_waves,
+			    f->medium[0].file, medium[0]->n_waves);
+		for (int w = 0; w < medium[0]->n_waves; w++)
+			if (fabs(medium[i]->wavelength[w] - medium[0]->wavelength[w]) > 1e-9 * medium[0]->wavelength[w])
+				die(f->medium[i].file, "has a wavelength of %g um where %s has %g: the media of a scene need the same",
+				    medium[i]->wavelength[w], f->medium[0].file, medium[0]->wavelength[w]);
+	}
+}
+
+/* What the media are made of, and the scene. */
+static char *history_of(const struct scenefile *f, const struct medium_file *baked)
+{
+	char *history = NULL;
+	for (int i = 0; i < f->n_media; i++) {
+		char *content = xtext("medium crc %08x", baked[i].crc), *before = history;
+		history = tab_join(before ? before : baked[i].medium.history, before ? baked[i].medium.history : content, before ? content : NULL, NULL);
+		free(content);
+		free(before);
+	}
+	char *all = tab_join(history, f->history, NULL);
+	free(history);
+	return all;
 }
 
 int main(int argc, char **argv)
@@ -100,7 +148,7 @@ int main(int argc, char **argv)
 		{ "--samples", OPT_INT, &samples, 1, IMAGE_SAMPLES, "N", "paths a pixel; default: 64", 1 },
 		{ "--sample-range", OPT_TEXT, &part, 0, 0, "A:B", "render samples A to B - 1 only, for exr-merge", 1 },
 		{ "--seed", OPT_INT, &seed, 0, 4294967295.0, "S", "of the random numbers", 0 },
-		{ "--transport", OPT_CHOICE, &transport, 0, 0, "explicit|fat-ray|grid|continuous", "model of the medium; default: explicit for particles, grid for a density that varies", 0 },
+		{ "--transport", OPT_CHOICE, &transport, 0, 0, "explicit|fat-ray|grid|continuous", "model of all media; default: as the scene says, else explicit for particles, grid for a density that varies", 0 },
 		{ "--attenuation", OPT_CHOICE, &attenuation, 0, 0, "product|exponential", "of fat rays; exponential is biased", 0 },
 		{ "--spectral", OPT_FLAG, &spectral, 0, 0, NULL, "add a layer for every wavelength", 0 },
 		{ "--backend", OPT_CHOICE, &backend, 0, 0, "c|opencl", "what runs the kernels", 1 },
@@ -132,34 +180,27 @@ int main(int argc, char **argv)
 	if (!part)
 		to = samples = samples ? samples : SAMPLES;
 	struct scenefile file;
-	struct medium_file baked;
-	const struct medium *medium = &baked.medium;
+	struct medium_file baked[MAX_VOLUMES];
+	const struct medium *medium[MAX_VOLUMES];
 	struct setup setup;
 	struct film film;
 	const char *path = args.n ? args.operand[0] : "-";
+	struct render_options options = { .attenuation = attenuation, .spectral = spectral, .seed = (uint32)seed };
+	int fat = 0;
 	scenefile_read(path, &file);
-	medium_file_open(file.medium, &baked);
-	int asked = transport >= 0;
-	if (!asked)
-		transport = medium->kind == MEDIUM_PARTICLES ? TRANSPORT_EXPLICIT : medium_even(medium) ? TRANSPORT_CONTINUOUS : TRANSPORT_GRID;
-	else if ((transport == TRANSPORT_EXPLICIT || transport == TRANSPORT_FAT_RAY) && medium->kind != MEDIUM_PARTICLES)
-		die(file.medium, "has no particles, which explicit and fat-ray need; bake it from particles, or render it as grid or continuous");
-	if (attenuation == ATTENUATION_EXPONENTIAL && transport != TRANSPORT_FAT_RAY)
+	open_media(&file, baked, medium);
+	for (int i = 0; i < file.n_media; i++) {
+		options.transport[i] = transport_of(&file.medium[i], medium[i], transport, verbose);
+		fat |= options.transport[i] == TRANSPORT_FAT_RAY;
+		if (options.transport[i] == TRANSPORT_EXPLICIT || options.transport[i] == TRANSPORT_FAT_RAY)
+			check_camera(path, &file, file.medium[i].position, medium[i]);
+	}
+	if (attenuation == ATTENUATION_EXPONENTIAL && !fat)
 		die("--attenuation", "exponential goes with --transport fat-ray");
-	if (spectral && medium->n_waves > IMAGE_WAVES)
-		die("--spectral", "the medium has %d wavelengths; an image has room for %d", medium->n_waves, IMAGE_WAVES);
-	const struct render_options options = { .transport = transport, .attenuation = attenuation, .spectral = spectral,
-		.seed = (uint32)seed };
-	if (transport == TRANSPORT_EXPLICIT || transport == TRANSPORT_FAT_RAY)
-		check_camera(path, &file, medium);
+	if (spectral && medium[0]->n_waves > IMAGE_WAVES)
+		die("--spectral", "the medium has %d wavelengths; an image has room for %d", medium[0]->n_waves, IMAGE_WAVES);
 	setup_make(&setup, &file, medium, &options);
 	film_make(&film, &setup.scene);
-	if (verbose)
-		warn(file.medium, "%s, %s: %zu particles, %d classes, %d wavelengths, mean optical depth %.4g along the shortest axis",
-		     (const char *[]){ "explicit", "fat-ray", "grid", "continuous" }[transport],
-		     asked ? "as asked for" : (const char *[]){ "the default for particles", NULL, "the default for a density that varies",
-		         "the default for an even density" }[transport],
-		     medium->n_particles, medium->n_classes, medium->n_waves, medium_depth(medium));
 
 	struct out out = out_open(output, 1);    /* before the work, not after */
 	struct cl *cl = backend ? cl_start(&setup, &film, (int)device, verbose) : NULL;
@@ -169,17 +210,17 @@ int main(int argc, char **argv)
 	if (!film_holds(&film))
 		die(path, "the light is too strong: a pixel's samples sum to more than 2^32; scale the lights down");
 	struct image image;
-	char *content = xtext("medium crc %08x", baked.crc), *history = tab_join(medium->history, content, file.history, NULL);
-	image_of(&image, &setup.scene, &film, medium, from, to, samples, history, args.history);
+	char *history = history_of(&file, baked);
+	image_of(&image, &setup.scene, &film, medium[0], from, to, samples, history, args.history);
 	image_write(&out, &image, part != NULL);
 	image_free(&image);
-	free(content);
 	free(history);
 	if (cl)
 		cl_free(cl);
 	film_free(&film);
 	setup_free(&setup);
-	medium_file_close(&baked);
+	for (int i = 0; i < file.n_media; i++)
+		medium_file_close(&baked[i]);
 	scenefile_free(&file);
 	free(args.history);
 	return 0;

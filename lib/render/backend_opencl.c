@@ -4,6 +4,7 @@
 #include "render/backend.h"
 #include "render/opencl.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,10 +31,17 @@ struct cl {
 	size_t group;              /* work-items of a work-group */
 };
 
-struct table {
+struct piece {
 	const void *p;
 	size_t n;                  /* elements of 4 bytes */
 	int large;                 /* may be split over buffers */
+};
+
+/* One after the other of all volumes. */
+struct table {
+	struct piece piece[MAX_VOLUMES];
+	size_t n;                  /* of all */
+	int large;
 };
 
 /* How the device is used. CPUs run few work-items of many pixels, whose lanes are vectors of the kernel's own, for their drivers
@@ -65,13 +73,28 @@ static size_t buffer_limit(cl_device_id device)
 	return (size_t)most;
 }
 
-/* As the kernel's arguments are. */
-static void tables(const struct setup *u, struct table *out)
+/* As the kernel's arguments are; the scene is a copy of the setup's that says where each volume's tables begin. */
+static void tables(const struct setup *u, struct scene *scene, struct table *out)
 {
-#define SMALL(type, name) { u->tables.name, u->size.name, 0 },
-#define LARGE(type, name) { u->tables.name, u->size.name, 1 },
-	const struct table table[N_BUFFERS] = { { &u->scene, sizeof u->scene / 4, 0 }, TABLES(SMALL, LARGE) };
-	memcpy(out, table, sizeof table);
+#define SMALL(type, name) { u->tables[k].name, u->size[k].name, 0 },
+#define LARGE(type, name) { u->tables[k].name, u->size[k].name, 1 },
+#define PLACE(type, name) &scene->volume[k].at.name,
+	*scene = u->scene;
+	memset(out, 0, N_BUFFERS * sizeof *out);
+	out[0] = (struct table){ .piece = { { scene, sizeof *scene / 4, 0 } }, .n = sizeof *scene / 4 };
+	for (int k = 0; k < scene->n_volumes; k++) {
+		const struct piece own[N_TABLES] = { TABLES(SMALL, LARGE) };
+		int *const at[N_TABLES] = { TABLES(PLACE, PLACE) };
+		for (int i = 0; i < N_TABLES; i++) {
+			struct table *t = &out[1 + i];
+			if (own[i].n > INT_MAX - t->n)
+				die("OpenCL", "the tables of all media together have more than %d elements", INT_MAX);
+			t->piece[k] = own[i];
+			t->large = own[i].large;
+			*at[i] = (int)t->n;
+			t->n += own[i].n;
+		}
+	}
 }
 
 /* The kernels are built for the number of buffers of large tables, as a rule 1. Of several each but the last holds 2^shift
@@ -88,8 +111,9 @@ static int divide(const struct table *table, size_t limit, int *chunks)
 	while ((size_t)8 << shift <= limit)
 		shift++;
 	*chunks = large <= limit / 4 ? 1 : CHUNKS_MAX;
-	if (fixed > limit / 4)
-		die("OpenCL", "out of memory on the device: a buffer of %zu bytes is needed, %zu is the most", 4 * fixed, limit);
+	size_t most = *chunks == 1 ? limit / 4 : (size_t)1 << shift;
+	if (fixed > most)
+		die("OpenCL", "out of memory on the device: a buffer of %zu bytes is needed, %zu is the most", 4 * fixed, 4 * most);
 	if (*chunks > 1 && large > (size_t)CHUNKS_MAX << shift)
 		die("OpenCL", "out of memory on the device: a table of %zu bytes is more than %d buffers of %zu", 4 * large,
 		    CHUNKS_MAX, (size_t)4 << shift);
@@ -100,8 +124,8 @@ static int divide(const struct table *table, size_t limit, int *chunks)
 static char *options_for(const struct cl *c, const struct scene *s, cl_device_id device, int chunks, int shift)
 {
 	cl_device_fp_config rounding = 0;
-	char waves[32] = "", parts[32] = "";
-	const struct volume *v = &s->volume;
+	char waves[32] = "", parts[32] = "", model[64] = "";
+	const struct volume *v = &s->volume[0];
 	cl_ask(device, CL_DEVICE_SINGLE_FP_CONFIG, &rounding, sizeof rounding);
 	if (!(rounding & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) || !(rounding & CL_FP_DENORM))
 		warn("OpenCL", "the device rounds otherwise than the C backend; the last bits of the image may differ");
@@ -110,9 +134,11 @@ static char *options_for(const struct cl *c, const struct scene *s, cl_device_id
 	if (chunks > 1)
 		snprintf(parts, sizeof parts, " -DCHUNK_SHIFT=%d", shift);
 	const char *exact = rounding & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT ? " -cl-fp32-correctly-rounded-divide-sqrt" : "";
-	return xtext("-cl-std=CL1.2%s -DLANES=%d -DTRANSPORT=%d%s -DPEAK=%d -DCHANNELS=%d -DSPECTRAL=%d -DHAS_GROUND=%d -DALL_ISOTROPIC=%d"
-	             " -DCOUNTED=%d -DCHUNKS=%d%s", exact, (int)c->lanes, v->transport, waves, v->peak > 0, s->channels, s->spectral,
-	             s->surfaces.has_ground, v->isotropic, v->counted, chunks, parts);
+	if (s->n_volumes == 1)
+		snprintf(model, sizeof model, " -DTRANSPORT=%d -DCOUNTED=%d", v->transport, v->counted);
+	return xtext("-cl-std=CL1.2%s -DLANES=%d -DVOLUMES=%d%s%s -DPEAK=%d -DCHANNELS=%d -DSPECTRAL=%d -DHAS_GROUND=%d -DALL_ISOTROPIC=%d"
+	             " -DCHUNKS=%d%s", exact, (int)c->lanes, s->n_volumes, model, waves, s->peak > 0, s->channels, s->spectral,
+	             s->surfaces.has_ground, s->isotropic, chunks, parts);
 }
 
 static void set(struct cl *c, cl_uint arg, size_t size, const void *value)
@@ -120,14 +146,19 @@ static void set(struct cl *c, cl_uint arg, size_t size, const void *value)
 	cl_check(clSetKernelArg(c->kernel, arg, size, value), "setting an argument");
 }
 
-/* A buffer of n bytes at p; an empty one still needs some. */
-static cl_mem buffer(struct cl *c, cl_mem_flags flags, const void *p, size_t n)
+/* A buffer of elements [from, to) of a table; an empty one still needs some. */
+static cl_mem table_buffer(struct cl *c, const struct table *t, size_t from, size_t to)
 {
-	static const char nothing[16];
 	cl_int error;
-	cl_mem m = clCreateBuffer(c->context, flags | CL_MEM_COPY_HOST_PTR, n ? n : sizeof nothing,
-	                          (void *)(size_t)(n ? p : nothing), &error);
+	cl_mem m = clCreateBuffer(c->context, CL_MEM_READ_ONLY, to > from ? 4 * (to - from) : 16, NULL, &error);
 	cl_check(error, "loading the scene");
+	size_t begin = 0;
+	for (int k = 0; k < MAX_VOLUMES; begin += t->piece[k++].n) {
+		size_t low = begin > from ? begin : from, end = begin + t->piece[k].n, high = end < to ? end : to;
+		if (low < high)
+			cl_check(clEnqueueWriteBuffer(c->queue, m, CL_TRUE, 4 * (low - from), 4 * (high - low),
+			                              (const char *)t->piece[k].p + 4 * (low - begin), 0, NULL, NULL), "loading the scene");
+	}
 	return m;
 }
 
@@ -137,7 +168,7 @@ static void load_tables(struct cl *c, const struct table *table, int chunks, int
 		size_t n = table[i].n, part = chunks > 1 && table[i].large ? (size_t)1 << shift : n;
 		for (int k = 0; k < (table[i].large ? chunks : 1); k++) {
 			size_t from = (size_t)k * part < n ? (size_t)k * part : n, own = n - from < part ? n - from : part;
-			cl_mem m = buffer(c, CL_MEM_READ_ONLY, (const char *)table[i].p + 4 * from, 4 * own);
+			cl_mem m = table_buffer(c, &table[i], from, from + own);
 			set(c, c->n_buffers, sizeof m, &m);
 			c->table[c->n_buffers++] = m;
 		}
@@ -154,6 +185,14 @@ static uint32 pixels_of(const struct cl *c, uint32 i)
 	return left < c->film_pixels ? left : c->film_pixels;
 }
 
+static cl_mem film_buffer(const struct cl *c, const void *p, size_t n)
+{
+	cl_int error;
+	cl_mem m = clCreateBuffer(c->context, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, n, (void *)(size_t)p, &error);
+	cl_check(error, "loading the film");
+	return m;
+}
+
 /* A film beyond one buffer is several; no launch writes into two. */
 static void load_film(struct cl *c, const struct film *f, size_t limit)
 {
@@ -164,8 +203,8 @@ static void load_film(struct cl *c, const struct film *f, size_t limit)
 	c->n_films = (c->pixels - 1) / c->film_pixels + 1;
 	c->film = xalloc(c->n_films, sizeof *c->film);
 	for (uint32 i = 0; i < c->n_films; i++)
-		c->film[i] = buffer(c, CL_MEM_READ_WRITE, film_part(c, f, i), pixels_of(c, i) * c->pixel_size);
-	c->overflow = buffer(c, CL_MEM_READ_WRITE, &f->overflow, sizeof f->overflow);
+		c->film[i] = film_buffer(c, film_part(c, f, i), pixels_of(c, i) * c->pixel_size);
+	c->overflow = film_buffer(c, &f->overflow, sizeof f->overflow);
 }
 
 /* Samples [first, first + n) of the pixels [from, to), which lie in one buffer of the film. */
@@ -201,13 +240,14 @@ struct cl *cl_start(const struct setup *u, const struct film *f, int number, int
 	struct cl *c = xalloc(1, sizeof *c);
 	cl_device_id device = cl_device(number, verbose);
 	struct table table[N_BUFFERS];
+	struct scene scene;
 	size_t limit = buffer_limit(device), most = 1;
 	int chunks, cached;
 	cl_int error;
 	c->pixels = (uint32)f->width * (uint32)f->height;
 	c->pixel_size = (size_t)f->n_sums * sizeof *f->sum;
 	shape(c, device);
-	tables(u, table);
+	tables(u, &scene, table);
 	need_memory(c, table, device);
 	int shift = divide(table, limit, &chunks);
 	char *options = options_for(c, &u->scene, device, chunks, shift);

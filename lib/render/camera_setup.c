@@ -11,7 +11,7 @@ static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] 
  * image, eye: from the origin. */
 static double scene_begin(const struct scene *s, const double *eye, const double *forward, double span[4][3])
 {
-	double reach = setup_reach(&s->volume), first = -dot(eye, forward) - reach;
+	double reach = setup_reach(s), first = -dot(eye, forward) - reach;
 	for (int i = 0; i < s->surfaces.n; i++) {
 		const struct surface *q = &s->surfaces.surface[i];
 		double nearest = INFINITY, furthest = -INFINITY;

@@ -6,7 +6,7 @@
 #include "base/cpu.h"
 #include "render/kern/scene.h"
 
-/* Adds samples [first, last) of pixels [first_pixel, last_pixel) to the film, as render_pixels in kern/render.h. */
+/* Adds samples [first, last) of pixels [first_pixel, last_pixel) to the film, as render_pixels in kern/render.h; t: of each volume. */
 typedef void render_fn(const struct scene *s, const struct tables *t, int64 *film, int *overflow, uint32 first_pixel, uint32 last_pixel,
                        uint32 first, uint32 last);
 

@@ -60,14 +60,14 @@ static void map_light(struct setup *u, const struct envmap *map)
 	struct lights *lights = &u->scene.lights;
 	uint32 *cdf = NULL;
 	size_t n = map->width ? envmap_cdf(map, &cdf) : 0;
-	SET_TABLE(u, map_cdf, setup_own(u, cdf), n);
+	SET_TABLE(u, 0, map_cdf, setup_own(u, cdf), n);
 	if (!n)
 		return;
 	lights->map_width = map->width;
 	lights->map_height = map->height;
 	lights->map_angle = (float)(4 * M_PI / map->width * sin(M_PI / 2 / map->height));
 	add_light(lights, (struct light){ .kind = LIGHT_MAP, .surface = NONE });
-	SET_TABLE(u, map, map->rgb, 3 * (size_t)map->width * (size_t)map->height);
+	SET_TABLE(u, 0, map, map->rgb, 3 * (size_t)map->width * (size_t)map->height);
 }
 
 /* Quads that shine, then those that only stand in the way. */
@@ -94,7 +94,7 @@ static void quad_lights(struct setup *u, const struct scenefile *f)
  * a half space. */
 static double quad_solid_angle(const struct scene *s, const struct surface *q, double area)
 {
-	double d2 = INFINITY, reach = setup_reach(&s->volume);
+	double d2 = INFINITY, reach = setup_reach(s);
 	for (int i = 0; i < 4; i++)
 		for (int j = 0; j < 4; j++) {    /* points of it, edges included */
 			double at2 = 0;
@@ -150,8 +150,8 @@ void light_setup(struct setup *u, const struct scenefile *f)
 	quad_lights(u, f);
 	/* what is drawn of a sun is at most its pdf's height or, by chains, 1 / (1 - share) of the truncation: the lower is taken */
 	float highest = 0;
-	for (size_t w = 0; w < u->size.truncation; w++)
-		highest = fmaxf(highest, u->tables.truncation[w] / (1 - s->volume.peak));
+	for (size_t w = 0; w < u->size[0].truncation; w++)
+		highest = fmaxf(highest, u->tables[0].truncation[w] / (1 - s->peak));
 	for (int i = 0; i < lights->n; i++)
 		lights->light[i].spiky = lights->light[i].kind == LIGHT_SUN && (lights->light[i].delta || lights->light[i].pdf > highest);
 	s->surfaces.has_ground = f->has_ground;

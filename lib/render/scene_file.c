@@ -224,6 +224,47 @@ static void light(const char *path, config_setting_t *g, struct scenefile *s)
 	}
 }
 
+const char *const scene_transport[] = { "explicit", "fat-ray", "grid", "continuous", NULL };
+
+static void medium(const char *path, config_setting_t *g, struct scene_medium *m)
+{
+	only(path, g, "file position transport");
+	const char *name = config_setting_get_string(need(path, g, "file"));
+	if (!name || !*name)
+		bad(path, g, "%s.file must be a string", KEY(g));
+	m->file = beside(path, name);
+	optional3(path, g, "position", m->position);
+	m->transport = -1;
+	config_setting_t *t = config_setting_get_member(g, "transport");
+	if (!t)
+		return;
+	const char *asked = config_setting_get_string(t);
+	for (int i = 0; asked && scene_transport[i]; i++)
+		m->transport = strcmp(asked, scene_transport[i]) ? m->transport : i;
+	if (m->transport < 0)
+		bad(path, t, "%s must be \"explicit\", \"fat-ray\", \"grid\" or \"continuous\"", KEY(t));
+}
+
+/* One medium = { .. }, or media = ( { .. }, { .. } ). */
+static void media(const char *path, config_setting_t *root, struct scenefile *s)
+{
+	config_setting_t *one = config_setting_get_member(root, "medium"), *several = config_setting_get_member(root, "media");
+	if (!one == !several)
+		die(path, one ? "has both 'medium' and 'media'" : "needs a group 'medium', or a list 'media'");
+	if (one) {
+		medium(path, one, &s->medium[s->n_media++]);
+		return;
+	}
+	if (!config_setting_is_list(several) || !config_setting_length(several))
+		bad(path, several, "media must be a list ( {..}, {..} )");
+	if (config_setting_length(several) > MAX_VOLUMES)
+		bad(path, several, "more than %d media", MAX_VOLUMES);
+	while (s->n_media < config_setting_length(several)) {
+		medium(path, config_setting_get_elem(several, (unsigned)s->n_media), &s->medium[s->n_media]);
+		s->n_media++;
+	}
+}
+
 static void list(FILE *f, int n, const double *v)
 {
 	for (int i = 0; i < n; i++)
@@ -253,9 +294,14 @@ static char *canonical(const struct scenefile *s)
 	FILE *f = open_memstream(&text, &size);
 	if (!f)
 		die(NULL, "out of memory");
-	fprintf(f, "scene camera %.17g,%.17g,%.17g %.17g,%.17g,%.17g %.17g,%.17g,%.17g %.17g %dx%d medium %.17g,%.17g,%.17g", s->position[0],
-	        s->position[1], s->position[2], s->target[0], s->target[1], s->target[2], s->up[0], s->up[1], s->up[2], s->fov, s->width,
-	        s->height, s->medium_position[0], s->medium_position[1], s->medium_position[2]);
+	fprintf(f, "scene camera %.17g,%.17g,%.17g %.17g,%.17g,%.17g %.17g,%.17g,%.17g %.17g %dx%d", s->position[0], s->position[1],
+	        s->position[2], s->target[0], s->target[1], s->target[2], s->up[0], s->up[1], s->up[2], s->fov, s->width, s->height);
+	for (int i = 0; i < s->n_media; i++) {
+		fprintf(f, " medium");
+		list(f, 3, s->medium[i].position);
+		if (s->medium[i].transport >= 0)
+			fprintf(f, " %s", scene_transport[s->medium[i].transport]);
+	}
 	fprintf(f, " environment");
 	list(f, 3, s->environment);
 	for (int kind = LIGHT_SUN; kind <= LIGHT_QUAD; kind++)
@@ -317,19 +363,11 @@ void scenefile_read(const char *path, struct scenefile *s)
 	fclose(f);
 	free(text);
 	config_setting_t *root = config_root_setting(&config), *g, *lights;
-	only(path, root, "camera medium lights ground");
-	for (const char *const *w = (const char *const[]){ "camera", "medium", NULL }; *w; w++)
-		if (!config_setting_get_member(root, *w))
-			die(path, "needs a group '%s'", *w);
+	only(path, root, "camera medium media lights ground");
+	if (!config_setting_get_member(root, "camera"))
+		die(path, "needs a group 'camera'");
 	camera(path, config_setting_get_member(root, "camera"), s);
-
-	g = config_setting_get_member(root, "medium");
-	only(path, g, "file position");
-	const char *name = config_setting_get_string(need(path, g, "file"));
-	if (!name || !*name)
-		bad(path, g, "medium.file must be a string");
-	s->medium = beside(path, name);
-	optional3(path, g, "position", s->medium_position);
+	media(path, root, s);
 
 	lights = config_setting_get_member(root, "lights");
 	if (!lights)
@@ -352,7 +390,8 @@ void scenefile_read(const char *path, struct scenefile *s)
 
 void scenefile_free(struct scenefile *s)
 {
-	free(s->medium);
+	for (int i = 0; i < s->n_media; i++)
+		free(s->medium[i].file);
 	free(s->map.rgb);
 	free(s->history);
 }

@@ -24,11 +24,17 @@ struct scene_light {
 	};
 };
 
+struct scene_medium {
+	char *file;                /* path, relative names resolved against the scene's folder */
+	double position[3];
+	int transport;             /* as kern/scene.h, or -1 where the scene does not say */
+};
+
 struct scenefile {
 	double position[3], target[3], up[3], fov;     /* camera; fov in degrees along the longer side */
 	int width, height;
-	char *medium;              /* path, relative names resolved against the scene's folder */
-	double medium_position[3];
+	int n_media;
+	struct scene_medium medium[MAX_VOLUMES];       /* as written */
 	int has_ground;
 	double ground_height, ground_albedo;
 	double environment[3];     /* linear RGB, as all strengths */
@@ -37,6 +43,9 @@ struct scenefile {
 	struct envmap map;
 	char *history;             /* one line: the scene in canonical form, without file names */
 };
+
+/* scene_transport - the names of transports, as kern/scene.h numbers them; NULL at the end. */
+extern const char *const scene_transport[];
 
 /* scenefile_read - read and check a scene ("-": standard input, whose folder is the current one); dies with its line on a misspelt or
  * missing key or a bad value. */

@@ -33,49 +33,77 @@ static int grey(const float *rgb) { return rgb[0] == rgb[1] && rgb[1] == rgb[2];
 static int channels(const struct setup *u, const struct scenefile *file)
 {
 	const struct lights *lights = &u->scene.lights;
-	int all = grey(lights->environment) && !file->map.width && u->scene.n_waves == 1 && grey(u->tables.colour);
+	int all = grey(lights->environment) && !file->map.width && u->scene.n_waves == 1 && grey(u->tables[0].colour);
 	for (int i = 0; i < lights->n; i++)
 		all &= grey(lights->light[i].rgb);
 	return all ? 1 : 3;
 }
 
-double setup_reach(const struct volume *v)
+static double volume_reach(const struct volume *v)
 {
-	double corner = 0;
+	double corner = 0, away = 0;
 	for (int a = 0; a < 3; a++) {
 		double most = fmax(v->extent[v->round ? 0 : a], v->cells[a] ? fabs(v->grid_centre[a]) + v->grid_reached[a] : 0);
 		corner += most * most;
+		away += (double)v->centre[a] * v->centre[a];
 	}
-	return sqrt(corner);
+	return sqrt(away) + sqrt(corner);
 }
 
-/* Depths are from the eye to anywhere in the volume. */
+double setup_reach(const struct scene *s)
+{
+	double most = 0;
+	for (int k = 0; k < s->n_volumes; k++)
+		most = fmax(most, volume_reach(&s->volume[k]));
+	return most;
+}
+
+/* Depths are from the eye to anywhere in the volumes. */
 static float depth_scale(const struct setup *u, const struct scenefile *f)
 {
 	double eye = 0;
 	int exponent;
 	for (int a = 0; a < 3; a++)
 		eye += pow((float)(f->position[a] - u->origin[a]), 2);
-	frexp(sqrt(eye) + setup_reach(&u->scene.volume), &exponent);
+	frexp(sqrt(eye) + setup_reach(&u->scene), &exponent);
 	return (float)ldexp(1, -exponent);
 }
 
-void setup_make(struct setup *u, const struct scenefile *file, const struct medium *medium, const struct render_options *options)
+/* The origin is the middle of the box around all media; of one that is its centre to the last bit. */
+static void place(struct setup *u, const struct scenefile *file, const struct medium *const *medium)
+{
+	for (int a = 0; a < 3; a++) {
+		double low = INFINITY, high = -INFINITY, at[MAX_VOLUMES];
+		for (int k = 0; k < file->n_media; k++) {
+			at[k] = file->medium[k].position[a] + medium[k]->centre[a];
+			low = fmin(low, at[k] - medium[k]->half[a]);
+			high = fmax(high, at[k] + medium[k]->half[a]);
+		}
+		u->origin[a] = file->n_media == 1 ? at[0] : (low + high) / 2;
+		for (int k = 0; k < file->n_media; k++)
+			u->scene.volume[k].centre[a] = (float)(at[k] - u->origin[a]);
+	}
+}
+
+void setup_make(struct setup *u, const struct scenefile *file, const struct medium *const *medium, const struct render_options *options)
 {
 	struct scene *s = &u->scene;
 	int suns = 0;
 	memset(u, 0, sizeof *u);
 	s->seed = options->seed;
-	s->volume.transport = options->transport;
-	s->volume.attenuation = options->attenuation;
-	s->n_waves = medium->n_waves;
-	s->n_groups = (medium->n_waves + MAX_WAVES - 1) / MAX_WAVES;
-	s->carried = (medium->n_waves + s->n_groups - 1) / s->n_groups;
+	s->n_waves = medium[0]->n_waves;
+	s->n_groups = (s->n_waves + MAX_WAVES - 1) / MAX_WAVES;
+	s->carried = (s->n_waves + s->n_groups - 1) / s->n_groups;
+	s->n_volumes = file->n_media;
+	s->isotropic = 1;
 	for (int i = 0; i < file->n_lights; i++)
 		suns |= file->light[i].kind == LIGHT_SUN;
-	for (int a = 0; a < 3; a++)
-		u->origin[a] = file->medium_position[a] + medium->centre[a];
-	volume_setup(u, file, medium, suns);
+	place(u, file, medium);
+	for (int k = 0; k < s->n_volumes; k++) {
+		s->volume[k].transport = options->transport[k];
+		s->volume[k].attenuation = options->attenuation;
+		volume_setup(u, k, file, medium[k], suns);
+	}
 	light_setup(u, file);
 	camera_setup(u, file);
 	s->channels = channels(u, file);
@@ -88,6 +116,8 @@ void setup_free(struct setup *u)
 {
 	for (int i = 0; i < u->n_own; i++)
 		free(u->own[i]);
-	phase_sampler_free(&u->sampler);
-	bricks_free(&u->bricks);
+	for (int k = 0; k < u->scene.n_volumes; k++) {
+		phase_sampler_free(&u->sampler[k]);
+		bricks_free(&u->bricks[k]);
+	}
 }

@@ -4,8 +4,8 @@
 
 #include "render/scene_setup.h"
 
-/* SET_TABLE - a table that somebody owns. */
-#define SET_TABLE(u, name, pointer, elements) ((u)->tables.name = (pointer), (u)->size.name = (elements))
+/* SET_TABLE - a table of volume k that somebody owns. */
+#define SET_TABLE(u, k, name, pointer, elements) ((u)->tables[k].name = (pointer), (u)->size[k].name = (elements))
 
 /* setup_own - setup_free frees p. */
 void *setup_own(struct setup *u, void *p);
@@ -15,16 +15,16 @@ void setup_unit(double *v);
 void setup_cross(const double *a, const double *b, double *out);
 void setup_floats(const double *v, float *out);
 
-/* setup_reach - how far from the origin the volume goes, m. */
-double setup_reach(const struct volume *v);
+/* setup_reach - how far from the origin the volumes go, m. */
+double setup_reach(const struct scene *s);
 
-/* camera_setup - needs the volume and the surfaces: rays begin where these do. */
+/* camera_setup - needs the volumes and the surfaces: rays begin where these do. */
 void camera_setup(struct setup *u, const struct scenefile *f);
 
-/* volume_setup - needs the transport; suns: whether there are lights of which a forward peak makes spikes. */
-void volume_setup(struct setup *u, const struct scenefile *f, const struct medium *m, int suns);
+/* volume_setup - volume k; needs its transport; suns: whether there are lights of which a forward peak makes spikes. */
+void volume_setup(struct setup *u, int k, const struct scenefile *f, const struct medium *m, int suns);
 
-/* light_setup - lights and surfaces; needs the volume's peak and truncation. */
+/* light_setup - lights and surfaces; needs the volumes, and their peak and truncation. */
 void light_setup(struct setup *u, const struct scenefile *f);
 
 #endif

@@ -10,9 +10,9 @@
 #include <string.h>
 
 /* Cross sections as the kernels want them: discs in m^2, albedos, by class and for the whole. */
-static void optics(struct setup *u, const struct medium *m)
+static void optics(struct setup *u, int n, const struct medium *m)
 {
-	struct volume *v = &u->scene.volume;
+	struct volume *v = &u->scene.volume[n];
 	size_t waves = (size_t)m->n_waves, classes = (size_t)m->n_classes;
 	float *extinction = setup_own(u, xalloc(waves, sizeof(float))), *disc_radius2 = setup_own(u, xalloc(classes * waves, sizeof(float)));
 	float *albedo = setup_own(u, xalloc((classes + 1) * waves, sizeof(float)));
@@ -32,9 +32,9 @@ static void optics(struct setup *u, const struct medium *m)
 		albedo[classes * waves + w] = ext > 0 ? (float)fmin(1, sca / ext) : 0;
 	}
 	v->largest_inverse = 1 / v->largest;
-	SET_TABLE(u, extinction, extinction, waves);
-	SET_TABLE(u, disc_radius2, disc_radius2, classes * waves);
-	SET_TABLE(u, albedo, albedo, (classes + 1) * waves);
+	SET_TABLE(u, n, extinction, extinction, waves);
+	SET_TABLE(u, n, disc_radius2, disc_radius2, classes * waves);
+	SET_TABLE(u, n, albedo, albedo, (classes + 1) * waves);
 }
 
 /* Colours of the wavelengths, and the shares of a light's in them. */
@@ -55,48 +55,48 @@ static void colours(struct setup *u, const struct medium *m)
 		}
 	}
 	free(rgb);
-	SET_TABLE(u, colour, colour, 6 * waves);
+	SET_TABLE(u, 0, colour, colour, 6 * waves);
 }
 
-/* Phase functions, with the peak of the only class where there are suns. */
-static void phases(struct setup *u, const struct medium *m, int suns)
+/* Phase functions, with the peak of the only class of the only volume where there are suns. */
+static void phases(struct setup *u, int n, const struct medium *m, int suns)
 {
-	struct volume *v = &u->scene.volume;
+	struct volume *v = &u->scene.volume[n];
 	struct forward_peak peak;
-	forward_peak_make(&peak, m, suns ? v->only_class : -1);
-	phase_sampler_make(&u->sampler, peak.n_classes, m->n_waves, peak.range, peak.theta, peak.p);
-	v->peak = (float)peak.share;
-	v->chain_scale = peak.share > 0 ? (float)(-1 / log(peak.share)) : 0;
-	SET_TABLE(u, truncation, setup_own(u, peak.truncation), (size_t)m->n_waves);
+	forward_peak_make(&peak, m, suns && u->scene.n_volumes == 1 ? v->only_class : -1);
+	phase_sampler_make(&u->sampler[n], peak.n_classes, m->n_waves, peak.range, peak.theta, peak.p);
+	u->scene.peak = (float)peak.share;
+	u->scene.chain_scale = peak.share > 0 ? (float)(-1 / log(peak.share)) : 0;
+	SET_TABLE(u, n, truncation, setup_own(u, peak.truncation), (size_t)m->n_waves);
 	peak.truncation = NULL;
 	forward_peak_free(&peak);
-	v->isotropic = u->sampler.isotropic;
-	SET_TABLE(u, phase, u->sampler.phase, u->sampler.n_phase);
-	SET_TABLE(u, interval, u->sampler.interval, u->sampler.n_interval);
-	SET_TABLE(u, alias, u->sampler.alias, u->sampler.n_alias);
-	SET_TABLE(u, angle, u->sampler.angle, u->sampler.n_angle);
+	u->scene.isotropic &= u->sampler[n].isotropic;
+	SET_TABLE(u, n, phase, u->sampler[n].phase, u->sampler[n].n_phase);
+	SET_TABLE(u, n, interval, u->sampler[n].interval, u->sampler[n].n_interval);
+	SET_TABLE(u, n, alias, u->sampler[n].alias, u->sampler[n].n_alias);
+	SET_TABLE(u, n, angle, u->sampler[n].angle, u->sampler[n].n_angle);
 }
 
 /* Fat rays have the area of a pixel's footprint at the medium's nearest depth (eq 23 with kappa 1), and no less than any particle. */
-static float fat_area(const struct scenefile *f, const struct medium *m, const double *origin, float largest)
+static float fat_area(const struct scenefile *f, const struct medium *m, const double *origin, const struct volume *v)
 {
 	double d2 = 0, pixel = 2 * tan(f->fov * M_PI / 360) / fmax(f->width, f->height), eye2 = 0;
 	for (int a = 0; a < 3; a++) {
-		double eye = f->position[a] - origin[a];
+		double eye = f->position[a] - origin[a] - v->centre[a];
 		eye2 += eye * eye;
 		d2 += pow(fmax(0, fabs(eye) - m->half[a]), 2);
 	}
 	if (m->round)
 		d2 = pow(fmax(0, sqrt(eye2) - m->half[0]), 2);
-	return (float)fmax(M_PI * largest, pixel * pixel * d2);
+	return (float)fmax(M_PI * v->largest, pixel * pixel * d2);
 }
 
 /* The grid of particles, and the cylinders that query it. */
-static void particles(struct setup *u, const struct scenefile *f, const struct medium *m)
+static void particles(struct setup *u, int n, const struct scenefile *f, const struct medium *m)
 {
-	struct volume *v = &u->scene.volume;
+	struct volume *v = &u->scene.volume[n];
 	double span = 0;           /* of the grid's coordinates */
-	v->fat_area = fat_area(f, m, u->origin, v->largest);
+	v->fat_area = fat_area(f, m, u->origin, v);
 	v->query_radius2 = v->transport == TRANSPORT_EXPLICIT ? v->largest : v->fat_area / (float)M_PI;
 	for (int a = 0; a < 3; a++) {
 		double high = m->low[a] + (double)m->cells[a] * m->cell[a];
@@ -110,13 +110,13 @@ static void particles(struct setup *u, const struct scenefile *f, const struct m
 	v->query_radius = (float)(sqrt(v->query_radius2) + 2e-6 * span);
 	for (int a = 0; a < 3; a++)
 		v->grid_reached[a] += v->query_radius;
-	SET_TABLE(u, particle, m->particle, 4 * m->n_particles);
-	SET_TABLE(u, first, (const int *)m->first, m->n_first);
+	SET_TABLE(u, n, particle, m->particle, 4 * m->n_particles);
+	SET_TABLE(u, n, first, (const int *)m->first, m->n_first);
 }
 
-static void voxels(struct setup *u, const struct medium *m)
+static void voxels(struct setup *u, int n, const struct medium *m)
 {
-	struct volume *v = &u->scene.volume;
+	struct volume *v = &u->scene.volume[n];
 	for (int a = 0; a < 3; a++) {
 		/* cells lie between the nodes of a density, and half of one before the first; before all, an empty brick */
 		double side = v->counted ? m->voxel : 2 * m->half[a] / m->voxels[a];
@@ -127,64 +127,65 @@ static void voxels(struct setup *u, const struct medium *m)
 	}
 	if (v->transport != TRANSPORT_GRID)
 		return;
-	bricks_make(&u->bricks, m);
-	memcpy(v->bricks, u->bricks.size, sizeof v->bricks);
-	SET_TABLE(u, brick, u->bricks.brick, u->bricks.n_brick);
-	SET_TABLE(u, voxel, u->bricks.voxel, u->bricks.n_voxel);
+	bricks_make(&u->bricks[n], m);
+	memcpy(v->bricks, u->bricks[n].size, sizeof v->bricks);
+	SET_TABLE(u, n, brick, u->bricks[n].brick, u->bricks[n].n_brick);
+	SET_TABLE(u, n, voxel, u->bricks[n].voxel, u->bricks[n].n_voxel);
 	if (v->counted)
-		SET_TABLE(u, count, (const int *)m->voxel_count, (size_t)m->voxels[0] * (size_t)m->voxels[1] * (size_t)m->voxels[2] * (size_t)m->n_classes);
+		SET_TABLE(u, n, count, (const int *)m->voxel_count, (size_t)m->voxels[0] * (size_t)m->voxels[1] * (size_t)m->voxels[2] * (size_t)m->n_classes);
 }
 
 #define SCATTERINGS_MOST 1e6
 
 /* Largest extinction of a voxel. */
-static double densest(const struct setup *u, int w)
+static double densest(const struct setup *u, int n, int w)
 {
-	const struct bricks *b = &u->bricks;
-	size_t step = u->scene.volume.counted ? (size_t)u->scene.n_waves : 1;
+	const struct bricks *b = &u->bricks[n];
+	size_t step = u->scene.volume[n].counted ? (size_t)u->scene.n_waves : 1;
 	double most = 0;
 	for (size_t i = step > 1 ? (size_t)w : 0; i < b->n_voxel; i += step)
 		most = fmax(most, b->voxel[i]);
-	return u->scene.volume.counted ? most : most * u->tables.extinction[w];
+	return u->scene.volume[n].counted ? most : most * u->tables[n].extinction[w];
 }
 
 /* Refuse what would hardly end. Of a medium that does not absorb, a path from outside meets 4 V/S times the mean extinction on the average
  * (Blanco and Fournier 2003), which is up to twice the depth along the shortest axis; one in a voxel, about that across it. */
-static void ends(const struct setup *u, const struct scenefile *f, const struct medium *m)
+static void ends(const struct setup *u, int n, const struct scenefile *f, const struct medium *m)
 {
-	const struct volume *v = &u->scene.volume;
+	const struct volume *v = &u->scene.volume[n];
 	size_t waves = (size_t)m->n_waves, classes = (size_t)m->n_classes;
 	double shortest = fmin(m->half[0], fmin(m->half[1], m->half[2])), side = INFINITY;
 	for (int a = 0; a < 3; a++)
 		side = fmin(side, v->voxel[a]);
 	for (size_t w = 0; w < waves; w++) {
-		double sum = 0, albedo = v->only_class >= 0 ? u->tables.albedo[(size_t)v->only_class * waves + w] : 0;
+		double sum = 0, albedo = v->only_class >= 0 ? u->tables[n].albedo[(size_t)v->only_class * waves + w] : 0;
 		for (size_t k = 0; k < classes; k++) {
 			sum += m->count[k] * m->c_ext[k * waves + w];
-			albedo = v->only_class < 0 ? fmax(albedo, u->tables.albedo[k * waves + w]) : albedo;
+			albedo = v->only_class < 0 ? fmax(albedo, u->tables[n].albedo[k * waves + w]) : albedo;
 		}
 		double depth = sum * 1e-12 / medium_volume(m) * 2 * shortest;
 		if (v->transport == TRANSPORT_GRID)
-			depth = fmax(depth, densest(u, (int)w) * side);
+			depth = fmax(depth, densest(u, n, (int)w) * side);
 		if (fmin(depth, 1 / (1 - albedo)) > SCATTERINGS_MOST)
-			die(f->medium, "optical depth %.3g at %g um without absorption: a path would be scattered over %g times", depth,
+			die(f->medium[n].file, "optical depth %.3g at %g um without absorption: a path would be scattered over %g times", depth,
 			    m->wavelength[w], SCATTERINGS_MOST);
 	}
 }
 
-void volume_setup(struct setup *u, const struct scenefile *f, const struct medium *m, int suns)
+void volume_setup(struct setup *u, int n, const struct scenefile *f, const struct medium *m, int suns)
 {
-	struct volume *v = &u->scene.volume;
+	struct volume *v = &u->scene.volume[n];
 	v->counted = m->kind == MEDIUM_PARTICLES;
 	v->n_classes = m->n_classes;
 	/* particles scatter by their class, everything else as the mixture */
 	v->only_class = v->transport == TRANSPORT_CONTINUOUS || !v->counted ? m->n_classes : m->n_classes == 1 ? 0 : -1;
 	v->round = m->round;
 	setup_floats(m->half, v->extent);
-	optics(u, m);
-	colours(u, m);
-	phases(u, m, suns);
-	particles(u, f, m);
-	voxels(u, m);
-	ends(u, f, m);
+	optics(u, n, m);
+	if (!n)
+		colours(u, m);
+	phases(u, n, m, suns);
+	particles(u, n, f, m);
+	voxels(u, n, m);
+	ends(u, n, f, m);
 }

@@ -24,7 +24,7 @@ struct cube {
 /* Fat rays are cylinders of that area. */
 static void as_model(struct cube *q, int transport, double area)
 {
-	struct volume *v = &q->scene.volume;
+	struct volume *v = &q->scene.volume[0];
 	v->transport = transport;
 	v->fat_area = (float)area;
 	v->query_radius2 = transport == TRANSPORT_EXPLICIT ? v->largest : v->fat_area / PI;
@@ -41,7 +41,7 @@ static const struct waves three = { WAVES, 0, 1 };
 /* A ray walked to its end. */
 static struct volume_walk walk(const struct cube *q, struct ray r, float t_end, int flight, const struct random *random)
 {
-	const struct volume *v = &q->scene.volume;
+	const struct volume *v = &q->scene.volume[0];
 	struct volume_walk g;
 	memset(&g, 0, sizeof g);
 	volume_begin(&q->scene, v, &q->tables, &g, ALL_LANES, r, t_end, flight, three, random);
@@ -53,7 +53,7 @@ static void transmittance(const struct cube *q, struct ray r, float t_end, float
 {
 	struct random none = { .key = 0 };
 	struct volume_walk g = walk(q, r, t_end, 0, &none);
-	volume_transmittance(&q->scene, &q->scene.volume, &q->tables, &g, ALL_LANES, three, out);
+	volume_transmittance(&q->scene, &q->scene.volume[0], &q->tables, &g, ALL_LANES, three, out);
 }
 
 /* c[class][wave]: areas in m^2. */
@@ -67,7 +67,7 @@ static struct cube *make(size_t n, const double *c, uint32 seed)
 	for (int i = 0; i < CLASSES * WAVES; i++) {
 		m->c_ext[i] = c[i] * 1e12;
 		q->disc_radius2[i] = (float)(c[i] / M_PI);
-		q->scene.volume.largest = fmaxf(q->scene.volume.largest, q->disc_radius2[i]);
+		q->scene.volume[0].largest = fmaxf(q->scene.volume[0].largest, q->disc_radius2[i]);
 	}
 	m->half[0] = m->half[1] = m->half[2] = 0.5;
 	m->kind = MEDIUM_PARTICLES;
@@ -80,14 +80,15 @@ static struct cube *make(size_t n, const double *c, uint32 seed)
 		memcpy(&m->particle[4 * i + 3], &(int32_t){ (int32_t)(draw_bits(&r, 3) & 1) }, 4);
 	}
 	particle_grid_build(m);
+	q->scene.n_volumes = 1;
 	q->scene.n_waves = q->scene.carried = WAVES;
 	q->scene.n_groups = 1;
-	q->scene.volume.n_classes = CLASSES;
-	q->scene.volume.only_class = NONE;
+	q->scene.volume[0].n_classes = CLASSES;
+	q->scene.volume[0].only_class = NONE;
 	for (int a = 0; a < 3; a++) {
-		q->scene.volume.cells[a] = m->cells[a];
-		q->scene.volume.grid_low[a] = m->low[a];
-		q->scene.volume.cell[a] = m->cell[a];
+		q->scene.volume[0].cells[a] = m->cells[a];
+		q->scene.volume[0].grid_low[a] = m->low[a];
+		q->scene.volume[0].cell[a] = m->cell[a];
 	}
 	q->tables = (struct tables){ .disc_radius2 = q->disc_radius2, .particle = m->particle, .first = (const int *)m->first };
 	as_model(q, TRANSPORT_EXPLICIT, 0);
@@ -105,7 +106,7 @@ static void drop(struct cube *q)
 /* First particle met at a wavelength, and the transmittance, by looking at every one. */
 static int brute(const struct cube *q, struct ray r, float t_end, int wave, const struct random *random, double *through)
 {
-	int best = NONE, fat = q->scene.volume.transport == TRANSPORT_FAT_RAY;
+	int best = NONE, fat = q->scene.volume[0].transport == TRANSPORT_FAT_RAY;
 	float end = t_end;
 	*through = 1;
 	for (size_t i = 0; i < q->medium.n_particles; i++) {
@@ -116,10 +117,10 @@ static int brute(const struct cube *q, struct ray r, float t_end, int wave, cons
 		float depth = dot3(v, r.along);
 		struct vec off = sub(v, scale(r.along, depth));
 		float radius2 = q->disc_radius2[class * WAVES + wave], d2 = dot3(off, off);
-		if (!(depth > 0.f) || !(depth < end) || (int)i == r.skip || !(d2 < (fat ? q->scene.volume.fat_area / PI : radius2)))
+		if (!(depth > 0.f) || !(depth < end) || (int)i == r.skip || !(d2 < (fat ? q->scene.volume[0].fat_area / PI : radius2)))
 			continue;
-		*through *= fat ? 1 - fmin(1, PI * radius2 / q->scene.volume.fat_area) : 0;
-		if (depth < t_end && (!fat || coin(random, (int)i) < radius2 * (PI / q->scene.volume.fat_area))) {
+		*through *= fat ? 1 - fmin(1, PI * radius2 / q->scene.volume[0].fat_area) : 0;
+		if (depth < t_end && (!fat || coin(random, (int)i) < radius2 * (PI / q->scene.volume[0].fat_area))) {
 			t_end = depth;
 			best = (int)i;
 		}
@@ -174,16 +175,16 @@ static void flights(int attenuation)
 	const double area = 1e-3, c[] = { area, area, area, 2 * area, 2 * area, 2 * area };
 	const int n = 200000;
 	struct cube *q = make(1000, c, 11);
-	struct ray r = { vec3(-1, 0.05f, -0.02f), vec3(1, 0, 0), inverse3(vec3(1, 0, 0)), NONE };
+	struct ray r = { vec3(-1, 0.05f, -0.02f), vec3(1, 0, 0), inverse3(vec3(1, 0, 0)), NONE, 0 };
 	float through[WAVES], flight_pdf[CARRIED];
 	double passed = 0, depth = 0, depth2 = 0;
 	as_model(q, TRANSPORT_FAT_RAY, 5e-3);
-	q->scene.volume.attenuation = attenuation;
+	q->scene.volume[0].attenuation = attenuation;
 	transmittance(q, r, FAR, through);
 	for (int k = 0; k < n; k++) {
 		struct random random = random_of(21, (uint32)k, 0);
 		struct volume_walk g = walk(q, r, FAR, 1, &random);
-		struct collision hit = volume_end(&q->scene, &q->scene.volume, &q->tables, &g, ALL_LANES, three, &random, flight_pdf);
+		struct collision hit = volume_end(&q->scene, &q->scene.volume[0], &q->tables, &g, ALL_LANES, three, &random, flight_pdf);
 		passed += !any(hit.happened);
 		depth += any(hit.happened) ? hit.point.x + 1 : 0;
 		depth2 += any(hit.happened) ? pow(hit.point.x + 1, 2) : 0;
@@ -229,7 +230,7 @@ static struct moments transmittances(double tau, double c, double a, int transpo
 	for (int k = 0; k < cubes; k++) {
 		struct cube *q = make(poisson(tau / c, (uint32)(k + 1)), all, (uint32)(1000 + k));
 		as_model(q, transport, a);
-		q->scene.volume.attenuation = attenuation;
+		q->scene.volume[0].attenuation = attenuation;
 		for (int axis = 0; axis < 3; axis++)
 			for (int i = 0; i < side * side; i++) {
 				float p[3], d[3] = { 0, 0, 0 }, through[WAVES];
@@ -237,7 +238,7 @@ static struct moments transmittances(double tau, double c, double a, int transpo
 				d[axis] = 1;
 				p[(axis + 1) % 3] = ((float)(i % side) + 0.5f) / (float)side - 0.5f;
 				p[(axis + 2) % 3] = ((float)(i / side) + 0.5f) / (float)side - 0.5f;
-				struct ray r = { load3(p), load3(d), inverse3(load3(d)), NONE };
+				struct ray r = { load3(p), load3(d), inverse3(load3(d)), NONE, 0 };
 				transmittance(q, r, FAR, through);
 				for (int e = 0; e < 5; e++)
 					m.sum[e] += pow(through[1], e);

@@ -23,8 +23,8 @@ static int mid_run(int opencl, const char *path)
 	struct setup u;
 	struct film f, once, all;
 	scenefile_read(path, &file);
-	medium_file_open(file.medium, &baked);
-	setup_make(&u, &file, &baked.medium, &(struct render_options){ .transport = TRANSPORT_EXPLICIT, .seed = 1 });
+	medium_file_open(file.medium[0].file, &baked);
+	setup_make(&u, &file, (const struct medium *const[]){ &baked.medium }, &(struct render_options){ .transport = { TRANSPORT_EXPLICIT }, .seed = 1 });
 	film_make(&f, &u.scene);
 	film_make(&once, &u.scene);
 	film_make(&all, &u.scene);

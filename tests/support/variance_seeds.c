@@ -48,8 +48,8 @@ int main(int argc, char **argv)
 		struct medium_file baked;
 		struct setup u;
 		scenefile_read(argv[a], &file);
-		medium_file_open(file.medium, &baked);
-		setup_make(&u, &file, &baked.medium, &(struct render_options){ .transport = transport });
+		medium_file_open(file.medium[0].file, &baked);
+		setup_make(&u, &file, (const struct medium *const[]){ &baked.medium }, &(struct render_options){ .transport = { transport } });
 		for (size_t k = 0; k < sizeof range / sizeof *range; k++)
 			printf("%s, samples %d to %d\t%.3f\n", argv[a], range[k][0], range[k][1] - 1,
 			       ratio(&u, &baked.medium, first, seeds, range[k][0], range[k][1]));

@@ -11,7 +11,7 @@ FN struct ray camera_ray(const struct camera *c, fv column, fv row)
 	struct vec along = unit3(add(load3(c->forward), add(scale(load3(c->right), x), scale(load3(c->up), y)))), from = load3(c->from);
 	if (c->ahead > 0.f)
 		from = add(from, add(scale(load3(c->across), x), scale(load3(c->rise), y)));
-	struct ray r = { from, along, inverse3(along), IV(NONE) };
+	struct ray r = { from, along, inverse3(along), IV(NONE), IV(0) };
 	return r;
 }
 

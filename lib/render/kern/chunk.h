@@ -18,8 +18,8 @@ FN int int_at(INTS t, int i) { return t[i]; }
 #else
 #define FLOATS struct floats
 #define INTS struct ints
-struct floats { GLOBAL const float *part[CHUNKS]; };
-struct ints { GLOBAL const int *part[CHUNKS]; };
+struct floats { GLOBAL const float *part[CHUNKS]; int from; };    /* from: of its first element */
+struct ints { GLOBAL const int *part[CHUNKS]; int from; };
 
 /* Selects rather than an indexed load: pointers stay in registers. */
 #define CHUNK_AT(type, table, i) \
@@ -27,21 +27,22 @@ struct ints { GLOBAL const int *part[CHUNKS]; };
 	for (int k = 1; k < CHUNKS; k++) \
 		at = (i) >> CHUNK_SHIFT == k ? (table).part[k] : at; \
 	return at[(i) & ((1 << CHUNK_SHIFT) - 1)]
-FN float float_at(FLOATS t, int i) { CHUNK_AT(float, t, i); }
-FN int int_at(INTS t, int i) { CHUNK_AT(int, t, i); }
+FN float float_at(FLOATS t, int i) { CHUNK_AT(float, t, i + t.from); }
+FN int int_at(INTS t, int i) { CHUNK_AT(int, t, i + t.from); }
 #endif
 
-/* The kernel's arguments for a table that may be large, and the table made of them; one that is not has a buffer alone. */
+/* The kernel's arguments for a table that may be large, and the table made of them, from one of its elements on; one that is not has a
+ * buffer alone. */
 #if CHUNKS == 1
 #define CHUNK_ARGS(type, name) __global const type *name
-#define CHUNK_TABLE(name) name
-#define WHOLE_TABLE(name) name
+#define CHUNK_TABLE(name, from) (name) + (from)
+#define WHOLE_TABLE(name, from) (name) + (from)
 #elif CHUNKS == 8
 #define CHUNK_ARGS(type, name) __global const type *name##0, __global const type *name##1, __global const type *name##2, \
 	__global const type *name##3, __global const type *name##4, __global const type *name##5, __global const type *name##6, \
 	__global const type *name##7
-#define CHUNK_TABLE(name) { { name##0, name##1, name##2, name##3, name##4, name##5, name##6, name##7 } }
-#define WHOLE_TABLE(name) { { name } }
+#define CHUNK_TABLE(name, from) { { name##0, name##1, name##2, name##3, name##4, name##5, name##6, name##7 }, from }
+#define WHOLE_TABLE(name, from) { { name }, from }
 #endif
 
 #endif

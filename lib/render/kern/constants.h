@@ -1,26 +1,34 @@
-/* constants - what a build may have as constants; the rest is as in the scene. In C the number of wavelengths and channels, and that a
- * medium is continuous and without a peak; in OpenCL all that many a branch depends on. */
+/* constants - what a build may have as constants; the rest is as in the scene. In C the number of wavelengths, channels and volumes, and
+ * that a medium is continuous and without a peak; in OpenCL all that many a branch depends on. */
 #ifndef KERN_CONSTANTS_H
 #define KERN_CONSTANTS_H
 
 #include "render/kern/scene.h"
 
-#ifdef TRANSPORT
+#ifdef VOLUMES
+#define N_VOLUMES VOLUMES
+#else
+#define N_VOLUMES (s->n_volumes)
+#endif
+#ifdef TRANSPORT               /* of the only volume, as the next two */
 #define TRANSPORT_OF(v) TRANSPORT
 #else
 #define TRANSPORT_OF(v) ((v)->transport)
 #endif
 #ifdef PEAK
-#define HAS_PEAK(v) PEAK
+#define HAS_PEAK PEAK
 #else
-#define HAS_PEAK(v) ((v)->peak > 0.f)
+#define HAS_PEAK (s->peak > 0.f)
 #endif
 #ifdef COUNTED
-#define IS_ISOTROPIC(v) ALL_ISOTROPIC
 #define IS_COUNTED(v) COUNTED
 #else
-#define IS_ISOTROPIC(v) ((v)->isotropic)
 #define IS_COUNTED(v) ((v)->counted)
+#endif
+#ifdef ALL_ISOTROPIC
+#define IS_ISOTROPIC ALL_ISOTROPIC
+#else
+#define IS_ISOTROPIC (s->isotropic)
 #define HAS_GROUND (s->surfaces.has_ground)
 #endif
 #ifndef CHANNELS
@@ -40,10 +48,10 @@
 /* A medium of several wavelengths, whose alpha has a colour, too. */
 #define COLOURED (N_WAVES > 1)
 
-/* Where rays take steps, or chains of scatterings by a peak, lanes wait for each other, and what concerns a vertex must be kept for
+/* Where rays take steps, pass several volumes, or are chains of scatterings by a peak, lanes wait for each other, and what concerns a vertex must be kept for
  * those that do. */
 #define TAKES_STEPS(v) (TRANSPORT_OF(v) != TRANSPORT_CONTINUOUS)
-#define LANES_WAIT (TAKES_STEPS(&s->volume) || HAS_PEAK(&s->volume))
+#define LANES_WAIT (N_VOLUMES > 1 || TAKES_STEPS(&s->volume[0]) || HAS_PEAK)
 #define PUT(m, place, value) ((place) = LANES_WAIT ? SEL(m, value, place) : (value))
 #define PUT3(m, place, value) ((place) = LANES_WAIT ? sel3(m, value, place) : (value))
 

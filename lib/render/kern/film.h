@@ -77,7 +77,7 @@ FN mv film_values(const struct scene *s, struct path *p, mv m, iv sample, fv *va
 		fv last = p->rgb[c], none = p->before[0][c], once = p->before[1][c];
 		fv single = SEL(often, once, SEL(scattered, last, zero)), more = SEL(often, last, zero);
 		none = SEL(scattered, none, last);
-		if (HAS_PEAK(&s->volume)) {
+		if (HAS_PEAK) {
 			single += p->aside[0][c];
 			more += p->aside[1][c];
 		}

@@ -59,7 +59,7 @@ FN struct collision homogeneous_end(const struct scene *s, const struct volume *
 		SET(g->forced, free, forced_path(draw_bits(random, DRAW_FLIGHT), sigma * h->length));
 	mv happened = m & lt(free, sigma * h->length);
 	fv length = SEL(happened, free * (1.f / sigma), h->length);
-	struct collision c = { happened, add(g->entry, scale(g->along, length)), g->t0 + length, IV(v->n_classes), IV(NONE) };
+	struct collision c = { happened, add(g->entry, scale(g->along, length)), g->t0 + length, IV(v->n_classes), IV(NONE), IV(0) };
 	EACH_WAVE(j) {
 		fv own = of_wave(s, t->extinction, 0, m, w, j);
 		flight_pdf[j] = expneg(own * length) * SEL(c.happened, own, FV(1.f));

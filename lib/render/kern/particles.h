@@ -238,7 +238,7 @@ FN void particles_transmittance(const struct scene *s, const struct volume *v, c
 FN struct collision particles_end(const struct scene *s, const struct volume *v, const struct tables *t, struct traversal *g,
                                   struct particle_query *q, mv m, struct waves w, const struct random *random, fv *flight_pdf)
 {
-	struct collision c = { NO_LANE, g->entry, FV(0.f), IV(0), q->id[0] };
+	struct collision c = { NO_LANE, g->entry, FV(0.f), IV(0), q->id[0], IV(0) };
 	(void)random;
 	EACH_WAVE(j)
 		c.id = SEL(ieq(w.hero, IV(j)), q->id[j], c.id);

@@ -55,7 +55,7 @@ FN void path_begin(const struct scene *s, struct path *p, mv m, iv pixel, iv col
 #define MAY_BE_FORCED(p) (ieq((p)->order, IV(0)) & FROM_CAMERA(p) & NOT(ieq((p)->surface, IV(GROUND))))
 
 /* Paths m set out on a flight from where they are. */
-FN void path_fly(const struct scene *s, const struct volume *v, const struct tables *t, struct path *p, mv m)
+FN void path_fly(const struct scene *s, const struct tables *t, struct path *p, mv m)
 {
 	iv surface;
 	fv t_end = surface_distance(s, p->ray, &surface);
@@ -64,13 +64,13 @@ FN void path_fly(const struct scene *s, const struct volume *v, const struct tab
 	p->flying |= m;
 	if (LANES_WAIT)
 		set_random(m, &p->walk_random, p->random);
-	volume_begin(s, v, t, &p->walk, m, p->ray, t_end, ALL_LANES, p->waves, &p->random);
-	if (KNOWS_DEPTH(v) && TAKES_STEPS(v) && any(m & MAY_BE_FORCED(p)))
-		volume_measure(s, v, t, &p->walk, m & MAY_BE_FORCED(p), p->waves);
+	media_begin(s, t, &p->walk, m, p->ray, t_end, ALL_LANES, p->waves, &p->random);
+	if (KNOWS_DEPTH && TAKES_STEPS(&s->volume[0]) && any(m & MAY_BE_FORCED(p)))
+		volume_measure(s, &s->volume[0], t, &p->walk.walk, m & MAY_BE_FORCED(p), p->waves);
 }
 
 /* What ends paths m, which did not scatter: a quad, or what lies behind everything. */
-FN void path_leave(const struct scene *s, const struct volume *v, const struct tables *t, struct path *p, mv m)
+FN void path_leave(const struct scene *s, const struct tables *t, struct path *p, mv m)
 {
 	fv rgb[3], spikes[3];
 	sky_radiance(s, t, m, p->ray.along, p->direction_pdf, rgb, spikes);
@@ -87,7 +87,7 @@ FN void path_leave(const struct scene *s, const struct volume *v, const struct t
 	}
 	EACH_WAVE(j) {
 		add_radiance(s, t, p, m, j, PATH_PDF(p, j), rgb, p->rgb);
-		add_radiance(s, t, p, m, j, HAS_PEAK(v) ? PATH_PDF(p, j) * p->peak_share[j] : PATH_PDF(p, j), spikes, p->rgb);
+		add_radiance(s, t, p, m, j, HAS_PEAK ? PATH_PDF(p, j) * p->peak_share[j] : PATH_PDF(p, j), spikes, p->rgb);
 	}
 }
 
@@ -116,11 +116,11 @@ FN void path_alpha(const struct scene *s, const struct tables *t, struct path *p
 #define FORCED_LEAST 0x1p-13f
 
 /* Paths m as they are unscattered: taken[] is what the medium took away from them, flight_pdf[] theirs as they are scattered. */
-FN void path_pass(const struct scene *s, const struct volume *v, const struct tables *t, struct path *p, mv m, fv *taken,
+FN void path_pass(const struct scene *s, const struct tables *t, struct path *p, mv m, fv *taken,
                   fv *flight_pdf)
 {
 	fv depth[CARRIED];
-	volume_depth(s, v, t, &p->walk, m, p->waves, depth);
+	volume_depth(s, &s->volume[0], t, &p->walk.walk, m, p->waves, depth);
 	EACH_WAVE(j) {
 		mv own = ilt(IV(j), p->waves.n);
 		taken[j] = SEL(own, one_less_exp(depth[j]), FV(0.f));
@@ -161,18 +161,18 @@ FN mv path_forced(const struct scene *s, struct path *p, mv m, fv t)
 }
 
 /* Flights of lanes m have ended. Returns the lanes whose path is over. */
-FN mv path_arrive(const struct scene *s, const struct volume *v, const struct tables *t, struct path *p, mv m)
+FN mv path_arrive(const struct scene *s, const struct tables *t, struct path *p, mv m)
 {
 	fv flight_pdf[CARRIED];
 	mv forced = NO_LANE, thin = NO_LANE;
-	if (KNOWS_DEPTH(v)) {
+	if (KNOWS_DEPTH) {
 		mv may = m & MAY_BE_FORCED(p);
 		if (any(may)) {
-			m &= NOT(volume_force(s, v, t, &p->walk, may, p->waves, &p->random, &thin));
-			forced = m & may & p->walk.ray.forced;
+			m &= NOT(volume_force(s, &s->volume[0], t, &p->walk.walk, may, p->waves, &p->random, &thin));
+			forced = m & may & p->walk.walk.ray.forced;
 		}
 	}
-	struct collision c = volume_end(s, v, t, &p->walk, m, p->waves, &p->random, flight_pdf);
+	struct collision c = media_end(s, t, &p->walk, m, p->waves, &p->random, flight_pdf);
 	mv alive = m & lt(FV(0.f), take_pdf(s, p->waves, p->path_pdf, m, flight_pdf));
 	mv ground = alive & NOT(c.happened) & ieq(p->surface, IV(GROUND)), out = alive & NOT(c.happened | ground | forced);
 	if (COLOURED || SPECTRAL) {
@@ -187,9 +187,9 @@ FN mv path_arrive(const struct scene *s, const struct volume *v, const struct ta
 	EACH_WAVE(j)    /* unused where none is thin, which a compiler does not see */
 		passed[j] = kept_pdf[j] = FV(0.f);
 	if (any(thin))
-		path_pass(s, v, t, p, thin, passed, kept_pdf);
+		path_pass(s, t, p, thin, passed, kept_pdf);
 	if (any(out | thin))
-		path_leave(s, v, t, p, out | thin);
+		path_leave(s, t, p, out | thin);
 	if (any(thin))
 		path_force(s, t, p, thin, passed, kept_pdf);
 	if (any(forced))
@@ -200,6 +200,8 @@ FN mv path_arrive(const struct scene *s, const struct volume *v, const struct ta
 	PUT3(m, p->vertex.point, c.point);
 	PUT(m, p->vertex.class, c.class);
 	PUT(m, p->vertex.id, c.id);
+	if (N_VOLUMES > 1)
+		SET(m, p->vertex.volume, c.volume);
 	next_order(s, p, hit, c.t);
 	if (HAS_GROUND) {
 		struct vec floor = add(p->ray.from, scale(p->ray.along, p->t_end));
@@ -209,11 +211,11 @@ FN mv path_arrive(const struct scene *s, const struct volume *v, const struct ta
 		SET(ground, p->vertex.id, IV(NONE));
 	}
 	EACH_WAVE(j) {
-		fv albedo = of_class(s, v, t->albedo, hit, p->vertex.class, p->waves, j);
+		fv albedo = vertex_albedo(s, t, hit, &p->vertex, p->waves, j);
 		PUT(m, p->weight[j], p->weight[j] * (HAS_GROUND ? SEL(hit, albedo, FV(s->surfaces.ground_albedo)) : albedo));
 	}
 	if (s->lights.n)
-		nee_begin(s, v, t, p, m);
+		nee_begin(s, t, p, m);
 	return over;
 }
 
@@ -233,24 +235,24 @@ FN mv roulette(const struct scene *s, struct path *p, mv m)
 }
 
 /* Paths m leave their vertices in a direction drawn there; returns its pdf, 0 where the path cannot be. */
-FN fv path_scatter(const struct scene *s, const struct volume *v, const struct tables *t, struct path *p, mv m, struct vec *along)
+FN fv path_scatter(const struct scene *s, const struct tables *t, struct path *p, mv m, struct vec *along)
 {
 	fv value[CARRIED], sn, cs;
 	mv ground = m & ON_GROUND(p->vertex), hit = m & NOT(ground);
 	struct vec axis = p->ray.along;
 	fv azimuth = 2.f * PI * draw(&p->random, DRAW_AZIMUTH);
-	if (IS_ISOTROPIC(v)) {
+	if (IS_ISOTROPIC) {
 		fv u = draw(&p->random, DRAW_COSINE);
 		cs = 1.f - 2.f * u;
 		sn = 2.f * fv_sqrt(u * (1.f - u));
 		EACH_WAVE(j)
 			value[j] = FV(ISOTROPIC);
 	} else {
-		phase_draw(s, t, hit, v->only_class, p->vertex.class, p->waves, draw_bits(&p->random, DRAW_ANGLE), draw_bits(&p->random, DRAW_PLACE),
-		           &sn, &cs, value);
+		vertex_draw(s, t, hit, &p->vertex, p->waves, draw_bits(&p->random, DRAW_ANGLE), draw_bits(&p->random, DRAW_PLACE), &sn, &cs,
+		            value);
 	}
 	fv pdf = take_pdf(s, p->waves, p->path_pdf, hit, value);
-	if (HAS_PEAK(v))
+	if (HAS_PEAK)
 		take_peak_share(s, t, p, m, hit, ground, value);
 	if (HAS_GROUND) {          /* cosine-distributed */
 		fv u = draw(&p->random, DRAW_COSINE);
@@ -259,7 +261,7 @@ FN fv path_scatter(const struct scene *s, const struct volume *v, const struct t
 		SET(ground, pdf, cs / PI);
 		set3(ground, &axis, vec3(FV(0.f), SEL(lt(p->ray.along.y, FV(0.f)), FV(1.f), FV(-1.f)), FV(0.f)));
 	}
-	if (IS_ISOTROPIC(v) && !HAS_GROUND) {    /* about any axis */
+	if (IS_ISOTROPIC && !HAS_GROUND) {    /* about any axis */
 		fv x, y;
 		fv_sincos(azimuth, &y, &x);
 		*along = vec3(sn * x, sn * y, cs);
@@ -270,18 +272,20 @@ FN fv path_scatter(const struct scene *s, const struct volume *v, const struct t
 }
 
 /* Shadow rays of lanes m have ended. Returns the lanes whose path is over. */
-FN mv path_depart(const struct scene *s, const struct volume *v, const struct tables *t, struct path *p, mv m)
+FN mv path_depart(const struct scene *s, const struct tables *t, struct path *p, mv m)
 {
 	if (s->lights.n)
-		nee_end(s, v, t, p, m);
+		nee_end(s, t, p, m);
 	mv on = roulette(s, p, m);
 	struct vec along;
-	fv pdf = path_scatter(s, v, t, p, on, &along);
+	fv pdf = path_scatter(s, t, p, on, &along);
 	PUT(on, p->direction_pdf, pdf);
 	PUT3(on, p->ray.along, along);
 	PUT3(on, p->ray.inverse, inverse3(along));
 	PUT3(on, p->ray.from, p->vertex.point);
 	PUT(on, p->ray.skip, p->vertex.id);
+	if (N_VOLUMES > 1)
+		SET(on, p->ray.volume, p->vertex.volume);
 	next_vertex(&p->random, m);
 	return m & NOT(on & lt(FV(0.f), pdf));
 }

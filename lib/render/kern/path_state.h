@@ -8,16 +8,8 @@
 #define KERN_PATH_STATE_H
 
 #include "render/kern/camera.h"
-#include "render/kern/volume.h"
-
-enum { VERTEX_MEDIUM, VERTEX_GROUND };
-
-/* A vertex of a path. */
-struct vertex {
-	struct vec point;
-	iv kind;
-	iv class, id;              /* what scatters in a medium; id NONE where it is no single particle */
-};
+#include "render/kern/media.h"
+#include "render/kern/vertex.h"
 
 /* A chain of scatterings by the peak from a vertex to a light, see forward_peak.h. */
 struct chain {
@@ -44,7 +36,7 @@ struct path {
 	fv alpha[3];               /* what the medium took away from white light behind it; of one wavelength not kept */
 	fv spectral_alpha[CARRIED];     /* the same by wavelength, as spectrum */
 	/* on the way: in flight to a surface or beyond, or from a vertex to a light */
-	struct volume_walk walk;
+	struct media_walk walk;
 	struct random walk_random; /* of the walk: the vertex's, or a chain's own */
 	mv flying;
 	fv t_end;
@@ -60,8 +52,6 @@ struct path {
 
 /* Rays that come from the camera. */
 #define FROM_CAMERA(p) le((p)->direction_pdf, FV(0.f))
-
-#define ON_GROUND(vertex) (HAS_GROUND ? ieq((vertex).kind, IV(VERTEX_GROUND)) : NO_LANE)
 
 /* Wavelengths of lanes m see k rgb[], which is added to into[]. A light's colour multiplies the film's channels, so that it is seen as
  * it is, whatever the wavelengths; the wavelength itself sees the mean of the light's channels that its own colour gives. */

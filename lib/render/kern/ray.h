@@ -10,6 +10,7 @@
 struct ray {
 	struct vec from, along, inverse;    /* 1 / along */
 	iv skip;                   /* particle that it starts from, or NONE */
+	iv volume;                 /* of several, the one that has this particle */
 };
 
 FN fv away_from_zero(fv x, float least_of) { return SEL(lt(x, FV(0.f)), fv_min(x, FV(-least_of)), fv_max(x, FV(least_of))); }

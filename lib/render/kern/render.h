@@ -44,7 +44,6 @@ FN void render_pixels(const struct scene *s, const struct tables *t, GLOBAL int6
                       uint32 last_pixel, uint32 first, uint32 last)
 {
 	uint32 width = (uint32)s->camera.width;
-	const struct volume *v = &s->volume;
 	struct work work = { first_pixel, first_pixel % width, first_pixel / width, first, last_pixel, first, last,
 		IV(0), IV(0), IV(0), IV(0) };
 	struct path p = { 0 };
@@ -56,15 +55,15 @@ FN void render_pixels(const struct scene *s, const struct tables *t, GLOBAL int6
 		if (any(fresh))
 			path_begin(s, &p, fresh, work.at_pixel, work.at_column, work.at_row, work.at_sample);
 		live |= fresh;
-		path_fly(s, v, t, &p, fresh | leaving);
+		path_fly(s, t, &p, fresh | leaving);
 		int least = count(live) - VERTEX_WAIT;
-		volume_step(s, v, t, &p.walk, p.waves, &p.walk_random, least > 0 ? least : 0);
-		mv here = live & NOT(volume_going(v, &p.walk)), chained = HAS_PEAK(v) ? here & p.chain.flying : NO_LANE;
-		mv ended = path_arrive(s, v, t, &p, here & p.flying);
+		media_step(s, t, &p.walk, p.waves, &p.walk_random, least > 0 ? least : 0);
+		mv here = live & NOT(media_going(s, &p.walk)), chained = HAS_PEAK ? here & p.chain.flying : NO_LANE;
+		mv ended = path_arrive(s, t, &p, here & p.flying);
 		if (any(chained))
-			chain_arrive(s, v, t, &p, chained);
-		leaving = live & NOT(p.flying | volume_going(v, &p.walk) | ended | (HAS_PEAK(v) ? p.chain.flying : NO_LANE));
-		ended |= path_depart(s, v, t, &p, leaving);
+			chain_arrive(s, t, &p, chained);
+		leaving = live & NOT(p.flying | media_going(s, &p.walk) | ended | (HAS_PEAK ? p.chain.flying : NO_LANE));
+		ended |= path_depart(s, t, &p, leaving);
 		leaving &= NOT(ended);
 		live &= NOT(ended);
 		over |= ended;

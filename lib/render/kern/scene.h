@@ -1,5 +1,5 @@
 /* scene - what the kernels are given, the same layout on host and device: a camera, a medium, lights, surfaces, and tables. Lengths
- * in m, angles in rad, the medium's centre at the origin. */
+ * in m, angles in rad, the middle of all media at the origin. */
 #ifndef KERN_SCENE_H
 #define KERN_SCENE_H
 
@@ -8,6 +8,7 @@
 #define NONE (-1)
 #define MAX_WAVES 8      /* wavelengths carried by one path; a medium of more is divided into interleaved groups */
 #define MAX_LIGHTS 16    /* lights and surfaces each */
+#define MAX_VOLUMES 8
 
 struct camera {
 	float right[3], up[3], forward[3];           /* a ray leaves along forward + x right + y up, x and y in [-1, 1] */
@@ -19,16 +20,37 @@ struct camera {
 enum { TRANSPORT_EXPLICIT, TRANSPORT_FAT_RAY, TRANSPORT_GRID, TRANSPORT_CONTINUOUS };
 enum { ATTENUATION_PRODUCT, ATTENUATION_EXPONENTIAL };
 
-/* A medium and the model by which rays pass it. A scene has one; the kernels are handed it apart from the scene, so that there may
- * be several, whose tables then follow each other. */
+#define ANGLE_STEPS 256      /* of the first level of the index of angles */
+
+/* Every table: its type, its name. LARGE ones grow with the medium or the map, and may be several buffers of a device. A volume has its
+ * own of each; colours and maps are the first one's. */
+#define TABLES(SMALL, LARGE) \
+	SMALL(float, extinction)   /* [wave] m^-1, of the whole medium; for a density grid, where it is 1 */ \
+	SMALL(float, disc_radius2) /* [class][wave] squared radius of the disc of area c_ext, m^2 */ \
+	SMALL(float, albedo)       /* [class][wave] */ \
+	SMALL(float, truncation)   /* [wave] sr^-1, what is above is the peak, see forward_peak.h; the peak is class n_classes + 1 */ \
+	SMALL(float, colour)       /* [wave][6] linear RGB of radiance 1; the shares of a light's R, G and B in it */ \
+	SMALL(int, phase)          /* [class][4] where its phase function stands in the next three, see phase.h */ \
+	LARGE(float, interval)     /* [interval][4 + 2 wave] sin, cos, theta, width; for each wavelength p in sr^-1 and its slope */ \
+	LARGE(int, alias)          /* [column][wave][2] threshold, the other interval */ \
+	LARGE(int, angle)          /* [step][2] first part, number of parts; [part][2] interval, the bits of where the next begins */ \
+	LARGE(float, particle)     /* [particle][4] position m, the bits of the class; cell by cell */ \
+	LARGE(int, first)          /* [cell] its first particle; one more at the end */ \
+	LARGE(int, brick)          /* [brick] the number of its voxels, or minus its distance to any that has some; see voxels.h */ \
+	LARGE(float, voxel)        /* by brick: [voxel][wave] extinction, m^-1; or nodes of density relative to extinction[] */ \
+	LARGE(int, count)          /* [voxel][class] particles, row by row */ \
+	LARGE(float, map)          /* [row][column][3] radiance */ \
+	LARGE(int, map_cdf)        /* [row + 1] of the rows, then [row][column + 1] of each row's texels, in units of 2^-31 */
+#define TABLE_PLACE(type, name) int name;
+struct table_places { TABLES(TABLE_PLACE, TABLE_PLACE) };
+
+/* A medium and the model by which rays pass it. */
 struct volume {
 	int transport, attenuation;
 	int counted;               /* made of particles: voxels are cubes that count them, else the cells between the nodes of a density */
 	int n_classes;             /* class n_classes is the mixture of the whole medium */
 	int only_class;            /* that scatters, or -1 where there are several */
-	int isotropic;             /* all phase functions are 1 / (4 pi) */
-	float peak;                /* share of scattering that is above the truncation of a peaked phase function, 0: there is no peak */
-	float chain_scale;         /* 1 / -log(peak) */
+	float centre[3];           /* of all that follows */
 	int round;                 /* it fills a sphere of radius extent[0], else a box */
 	float extent[3];
 	/* particles: cylinders that query them, the grid over their centres */
@@ -42,6 +64,7 @@ struct volume {
 	/* voxels */
 	int voxels[3], bricks[3];
 	float voxel_low[3], voxel[3], voxels_per_m[3];    /* the low end of the bricks, whose outermost have nothing in them */
+	struct table_places at;    /* on a device its tables are in the same buffers as those of other volumes, from there on */
 };
 
 enum { LIGHT_SUN, LIGHT_QUAD, LIGHT_MAP };
@@ -86,7 +109,11 @@ struct surfaces {
 
 struct scene {
 	struct camera camera;
-	struct volume volume;
+	int n_volumes;
+	struct volume volume[MAX_VOLUMES];
+	int isotropic;             /* all phase functions are 1 / (4 pi) */
+	float peak;                /* share of scattering that is above the truncation of a peaked phase function, 0: there is no peak; */
+	float chain_scale;         /* 1 / -log(peak); of the only volume */
 	struct lights lights;
 	struct surfaces surfaces;
 	uint32 seed;
@@ -97,27 +124,6 @@ struct scene {
 	int spectral;
 	float depth_scale;         /* a power of 2: depths times this are below 1 */
 };
-
-#define ANGLE_STEPS 256      /* of the first level of the index of angles */
-
-/* Every table: its type, its name. LARGE ones grow with the medium or the map, and may be several buffers of a device. */
-#define TABLES(SMALL, LARGE) \
-	SMALL(float, extinction)   /* [wave] m^-1, of the whole medium; for a density grid, where it is 1 */ \
-	SMALL(float, disc_radius2) /* [class][wave] squared radius of the disc of area c_ext, m^2 */ \
-	SMALL(float, albedo)       /* [class][wave] */ \
-	SMALL(float, truncation)   /* [wave] sr^-1, what is above is the peak, see forward_peak.h; the peak is class n_classes + 1 */ \
-	SMALL(float, colour)       /* [wave][6] linear RGB of radiance 1; the shares of a light's R, G and B in it */ \
-	SMALL(int, phase)          /* [class][4] where its phase function stands in the next three, see phase.h */ \
-	LARGE(float, interval)     /* [interval][4 + 2 wave] sin, cos, theta, width; for each wavelength p in sr^-1 and its slope */ \
-	LARGE(int, alias)          /* [column][wave][2] threshold, the other interval */ \
-	LARGE(int, angle)          /* [step][2] first part, number of parts; [part][2] interval, the bits of where the next begins */ \
-	LARGE(float, particle)     /* [particle][4] position m, the bits of the class; cell by cell */ \
-	LARGE(int, first)          /* [cell] its first particle; one more at the end */ \
-	LARGE(int, brick)          /* [brick] the number of its voxels, or minus its distance to any that has some; see voxels.h */ \
-	LARGE(float, voxel)        /* by brick: [voxel][wave] extinction, m^-1; or nodes of density relative to extinction[] */ \
-	LARGE(int, count)          /* [voxel][class] particles, row by row */ \
-	LARGE(float, map)          /* [row][column][3] radiance */ \
-	LARGE(int, map_cdf)        /* [row + 1] of the rows, then [row][column + 1] of each row's texels, in units of 2^-31 */
 
 #define TABLE_float FLOATS
 #define TABLE_int INTS

@@ -28,6 +28,7 @@ struct collision {
 	struct vec point;          /* of the collision */
 	fv t;                      /* how far away */
 	iv class, id;              /* what scatters there; id NONE where it is no single particle */
+	iv volume;                 /* of several, the one that has it */
 };
 
 #endif

@@ -2,11 +2,7 @@
  * transmittance and end.
  *
  * A flight is sampled for one wavelength, the hero; flight_pdf[j] is what its own density would be for wavelength j: the common
- * currency in which the wavelengths of a path are weighed against each other.
- *
- * Several volumes would be traversed one by one, each with random numbers of its own: the first collision is the nearest of theirs, a
- * shadow ray's transmittance the product of theirs. A flight that collides in B before it would have in A has passed A up to there, so
- * that its pdf needs A's transmittance up to B's collision at every wavelength, which end does not give. */
+ * currency in which the wavelengths of a path are weighed against each other. media.h has rays through several volumes. */
 #ifndef KERN_VOLUME_H
 #define KERN_VOLUME_H
 
@@ -65,8 +61,8 @@ FN struct collision volume_end(const struct scene *s, const struct volume *v, co
 	return c;
 }
 
-/* Whether the optical depth of a flight's whole way can be known. */
-#define KNOWS_DEPTH(v) (!USES_PARTICLES(v))
+/* Whether the optical depth of a flight's whole way can be known: of several volumes it is not. */
+#define KNOWS_DEPTH (N_VOLUMES == 1 && !USES_PARTICLES(&s->volume[0]))
 #define DEPTH_MODEL(op, ...) (TRANSPORT_OF(v) == TRANSPORT_GRID ? voxels_##op(s, v, t, &g->ray, &g->voxels, __VA_ARGS__) \
 	: homogeneous_##op(s, v, t, &g->ray, &g->homogeneous, __VA_ARGS__))
 

@@ -284,7 +284,7 @@ FN iv class_in(const struct scene *s, const struct volume *v, const struct table
 FN struct collision voxels_end(const struct scene *s, const struct volume *v, const struct tables *t, struct traversal *g, struct voxel_dda *q,
                                mv m, struct waves w, const struct random *random, fv *flight_pdf)
 {
-	struct collision c = { m & q->reached, g->entry, target_place(v, t, q, m), IV(v->n_classes), IV(NONE) };
+	struct collision c = { m & q->reached, g->entry, target_place(v, t, q, m), IV(v->n_classes), IV(NONE), IV(0) };
 	c.point = add(g->entry, scale(g->along, c.t));
 	c.t += g->t0;
 	if (IS_COUNTED(v))

@@ -1,0 +1,181 @@
+/* media - flights and shadow rays through all volumes of a scene, which may overlap.
+ *
+ * What is in one volume knows nothing of the others: a flight ends at the nearest of the collisions that flights through each alone
+ * would have, and transmittances multiply. The volumes are passed one by one, each with random numbers of its own, a flight no further
+ * than to the nearest collision so far. One that has collided has passed all others up to there; those that were passed before were
+ * passed too far, and of several wavelengths are passed again, to the collision, for the pdf there. */
+#ifndef KERN_MEDIA_H
+#define KERN_MEDIA_H
+
+#include "render/kern/volume.h"
+
+struct media_walk {
+	struct volume_walk walk;   /* through the volume at hand */
+	/* of several volumes */
+	mv going;                  /* not yet through all of them */
+	mv flight;                 /* else a shadow ray */
+	mv again;                  /* a flight that passes the volumes before that of its collision once more */
+	iv at;                     /* the volume at hand */
+	struct ray ray;
+	fv t_end;                  /* the nearest collision, or where the ray ends */
+	struct collision nearest;
+	fv passed[CARRIED];        /* pdf of the flight, transmittance of the shadow ray, so far */
+};
+
+/* Random numbers of volume k, the first of which has the vertex's own. */
+FN struct random volume_random(const struct random *random, int k)
+{
+	struct random r = *random;
+	if (k) {
+		r.key = r.shift = mix(r.shift + (uint32)k * 0x9e3779b9u, random->key ^ 0x7feb352du);
+		r.lattice = UV(0);
+	}
+	return r;
+}
+
+/* Lanes that have steps to take. */
+FN mv media_going(const struct scene *s, const struct media_walk *g)
+{
+	return N_VOLUMES > 1 ? g->going : volume_going(&s->volume[0], &g->walk);
+}
+
+/* Lanes m set out through the volume that they have come to. */
+FN void media_enter(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct waves w, const struct random *random)
+{
+	EACH(k, N_VOLUMES) {
+		mv own = m & ieq(g->at, IV(k));
+		if (!any(own))
+			continue;
+		struct random numbers = volume_random(random, k);
+		struct ray r = g->ray;
+		r.from = sub(r.from, load3(s->volume[k].centre));
+		r.skip = SEL(ieq(r.volume, IV(k)), r.skip, IV(NONE));
+		volume_begin(s, &s->volume[k], t + k, &g->walk, own, r, g->t_end, g->flight, w, &numbers);
+	}
+}
+
+/* Lanes m set out along r up to t_end, in flight, or else as shadow rays. */
+FN void media_begin(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct ray r, fv t_end, mv flight,
+                    struct waves w, const struct random *random)
+{
+	if (N_VOLUMES == 1) {
+		volume_begin(s, &s->volume[0], t, &g->walk, m, r, t_end, flight, w, random);
+		return;
+	}
+	set3(m, &g->ray.from, r.from);
+	set3(m, &g->ray.along, r.along);
+	set3(m, &g->ray.inverse, r.inverse);
+	SET(m, g->ray.skip, r.skip);
+	SET(m, g->ray.volume, r.volume);
+	SET(m, g->t_end, t_end);
+	SET(m, g->at, IV(0));
+	EACH_WAVE(j)
+		SET(m, g->passed[j], FV(1.f));
+	SET_TRUTH(m, g->flight, flight);
+	SET_TRUTH(m, g->again, NO_LANE);
+	SET_TRUTH(m, g->nearest.happened, NO_LANE);
+	g->going |= m;
+	media_enter(s, t, g, m, w, random);
+}
+
+/* Lanes m have come through volume k, or into a collision in it. */
+FN void media_pass(const struct scene *s, const struct tables *t, struct media_walk *g, int k, mv m, struct waves w,
+                   const struct random *random)
+{
+	const struct volume *v = &s->volume[k];
+	struct random numbers = volume_random(random, k);
+	mv shadow = m & NOT(g->flight), flight = m & g->flight;
+	fv own[CARRIED];
+	if (any(shadow)) {
+		volume_transmittance(s, v, t + k, &g->walk, shadow, w, own);
+		EACH_WAVE(j)
+			SET(shadow, g->passed[j], g->passed[j] * own[j]);
+	}
+	if (!any(flight))
+		return;
+	struct collision c = volume_end(s, v, t + k, &g->walk, flight, w, &numbers, own);
+	mv met = c.happened & NOT(g->again);
+	EACH_WAVE(j)           /* what was passed before a collision is passed again */
+		SET(flight, g->passed[j], SEL(met, own[j], g->passed[j] * own[j]));
+	set3(met, &g->nearest.point, add(c.point, load3(v->centre)));
+	SET(met, g->nearest.t, c.t);
+	SET(met, g->nearest.class, c.class);
+	SET(met, g->nearest.id, c.id);
+	SET(met, g->nearest.volume, IV(k));
+	SET(met, g->t_end, c.t);
+	g->nearest.happened |= met;
+}
+
+/* Lanes m have done with the volume at hand, and go on through the next one. */
+FN void media_next(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct waves w, const struct random *random)
+{
+	EACH(k, N_VOLUMES) {
+		mv own = m & ieq(g->at, IV(k));
+		if (any(own))
+			media_pass(s, t, g, k, own, w, random);
+	}
+	fv most = FV(0.f);
+	EACH_WAVE(j)
+		most = fv_max(most, g->passed[j]);
+	SET(m, g->at, g->at + 1);
+	mv on = m & ilt(g->at, SEL(g->again, g->nearest.volume, IV(N_VOLUMES))) & (g->flight | lt(FV(0.f), most));
+	if (CARRIED > 1) {
+		mv again = m & NOT(on | g->again) & g->nearest.happened & ilt(IV(0), g->nearest.volume);
+		SET(again, g->at, IV(0));
+		g->again |= again;
+		on |= again;
+	}
+	g->going &= NOT(m & NOT(on));
+	if (any(on))
+		media_enter(s, t, g, on, w, random);
+}
+
+/* All lanes that have steps to take do so, until at most least of them have any left. */
+FN void media_step(const struct scene *s, const struct tables *t, struct media_walk *g, struct waves w, const struct random *random, int least)
+{
+	if (N_VOLUMES == 1) {
+		volume_step(s, &s->volume[0], t, &g->walk, w, random, least);
+		return;
+	}
+	while (count(g->going) > least) {
+		EACH(k, N_VOLUMES) {
+			mv own = g->walk.ray.going & ieq(g->at, IV(k)), others = g->walk.ray.going & NOT(own);
+			int n = count(own);
+			if (!n)
+				continue;
+			struct random numbers = volume_random(random, k);
+			g->walk.ray.going = own;
+			volume_step(s, &s->volume[k], t + k, &g->walk, w, &numbers, (n - 1) / 2);
+			g->walk.ray.going |= others;
+		}
+		mv done = g->going & NOT(g->walk.ray.going);
+		if (any(done))
+			media_next(s, t, g, done, w, random);
+	}
+}
+
+/* What shadow rays m let through at each wavelength. */
+FN void media_transmittance(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct waves w, fv *out)
+{
+	if (N_VOLUMES == 1) {
+		volume_transmittance(s, &s->volume[0], t, &g->walk, m, w, out);
+		return;
+	}
+	EACH_WAVE(j)
+		out[j] = g->passed[j];
+}
+
+/* How flights m ended; flight_pdf as volume_end. */
+FN struct collision media_end(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct waves w,
+                              const struct random *random, fv *flight_pdf)
+{
+	if (N_VOLUMES == 1)
+		return volume_end(s, &s->volume[0], t, &g->walk, m, w, random, flight_pdf);
+	struct collision c = g->nearest;
+	c.happened &= m;
+	EACH_WAVE(j)
+		flight_pdf[j] = CARRIED == 1 ? FV(1.f) : g->passed[j];
+	return c;
+}
+
+#endif
