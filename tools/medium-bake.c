@@ -10,6 +10,7 @@
 #include "medium/particle_counts.h"
 #include "medium/particle_grid.h"
 #include "medium/provenance.h"
+#include "medium/thinning.h"
 
 #include <float.h>
 #include <math.h>
@@ -38,20 +39,35 @@ static void check_provenance(const char *xsect, const char *phase, int psd, int 
 	free(optics);
 }
 
+/* What a tolerance leaves of classes and of angles of phase functions, half of it for each. */
+static void thin(struct medium *m, double tolerance, const char *output, int verbose)
+{
+	struct thinned t;
+	thinning_classes(m, tolerance / 2, &t);
+	thinning_nodes(m, tolerance - t.classes_error, &t);
+	if (verbose)
+		warn(output, "%d of %d classes, a particle's own optics within %.2g; %zu of %zu angles, half-L1 within %.2g", m->n_classes,
+		     t.classes, t.classes_error, m->n_nodes, t.nodes, t.nodes_error);
+}
+
 int main(int argc, char **argv)
 {
 	const char *xsect = NULL, *phase = NULL, *psd = NULL, *density = NULL, *output = NULL;
 	long long voxels = 0;
-	double concentration = NAN, sphere = NAN, box[3] = { NAN, NAN, NAN };
+	int verbose = 0;
+	double tolerance = 0, concentration = NAN, visibility = NAN, sphere = NAN, box[3] = { NAN, NAN, NAN };
 	const struct opt opts[] = {
 		{ "--xsect", OPT_FILE, &xsect, 0, 0, "FILE", "cross sections by class and wavelength, from xsect", 0 },
 		{ "--phase", OPT_FILE, &phase, 0, 0, "FILE", "phase functions, from mie-phase, goa-phase or txttab", 0 },
 		{ "--psd", OPT_FILE, &psd, 0, 0, "FILE", "a size distribution instead of particles", 0 },
 		{ "--concentration", OPT_PER_M3, &concentration, 0, DBL_MAX, "N/m3", "its particles a volume", 0 },
+		{ "--visibility", OPT_M, &visibility, 1e-6, 1e9, "V", "or as many as let one see so far at 550 nm", 0 },
 		{ "--box", OPT_BOX, box, 1e-9, 1e6, "X,Y,Z", "the medium fills a box", 0 },
 		{ "--sphere", OPT_M, &sphere, 1e-9, 1e6, "R", "the medium fills a sphere", 0 },
 		{ "--density", OPT_FILE, &density, 0, 0, "GRID.npy", "relative density in the box, [z][y][x], with --psd", 0 },
 		{ "--voxels", OPT_INT, &voxels, 1, MEDIUM_VOXELS_SIDE, "N", "voxels along the longest side", 0 },
+		{ "--tolerance", OPT_REAL, &tolerance, 1e-6, 0.1, "T", "merge classes and leave out angles that change less", 0 },
+		{ "--verbose", OPT_FLAG, &verbose, 0, 0, NULL, "say what is baked", 1 },
 		{ "-o", OPT_FILE, &output, 0, 0, "FILE", "the medium file", 1 },
 		OPT_END
 	};
@@ -66,12 +82,12 @@ int main(int argc, char **argv)
 		die("--sphere", "excludes --box");
 	if (args.n > (psd ? 0 : 1))
 		die(args.operand[args.n - 1], psd ? "--psd takes no particles" : "one table of particles at most");
-	if (psd && isnan(concentration))
-		die("--concentration", "is needed with --psd");
+	if (psd && isnan(concentration) == isnan(visibility))
+		die("--concentration", isnan(visibility) ? "or --visibility is needed with --psd" : "excludes --visibility");
 	if (psd && !bounded)
 		die("--box", "or --sphere is needed with --psd");
-	if (!psd && !isnan(concentration))
-		die("--concentration", "needs --psd");
+	if (!psd && (!isnan(concentration) || !isnan(visibility)))
+		die(isnan(visibility) ? "--concentration" : "--visibility", "needs --psd");
 	if (!psd && density)
 		die("--density", "needs --psd; particles have their own");
 	m.kind = psd ? MEDIUM_DENSITY : MEDIUM_PARTICLES;
@@ -83,10 +99,19 @@ int main(int argc, char **argv)
 		bake_density(density, (int)voxels, &m);
 	char *history = classes_cross_sections(xsect, &m);
 	int exact = 0;
-	char *matter = psd ? bake_psd(psd, concentration, &m, &exact) : bake_particles(args.n ? args.operand[0] : NULL, bounded, &m);
+	char *matter = psd ? bake_psd(psd, isnan(visibility) ? concentration : 1, &m, &exact) : bake_particles(args.n ? args.operand[0] : NULL, bounded, &m);
+	if (!isnan(visibility)) {
+		double wavelength;
+		concentration = bake_visibility(visibility, &m, &wavelength);
+		if (verbose)
+			warn(output, "one sees %g m at %g um where %.6g/m3 make an extinction of %.4g/m", visibility, wavelength, concentration,
+			     -log(0.02) / visibility);
+	}
 	char *phases = classes_phase_functions(phase, &m);
 	check_provenance(xsect, phase, psd != NULL, exact, matter, history, phases);
 	m.history = tab_join(history, phases, matter, args.history, NULL);
+	if (tolerance > 0)
+		thin(&m, tolerance, output, verbose);
 	if (m.kind == MEDIUM_PARTICLES) {
 		particle_grid_build(&m);
 		particle_counts_build(&m, (int)voxels);

@@ -13,6 +13,11 @@ void bake_density(const char *path, int longest, struct medium *m);
  * is 1; after bake_density. *exact: whether all radii are the classes' own. Returns the table's history. */
 char *bake_psd(const char *path, double concentration, struct medium *m, int *exact);
 
+/* bake_visibility - the concentration (m^-3) of which things are seen so far away, where the density is 1: Koschmieder's law (1924) with a
+ * contrast of 2 %, extinction 3.912 / visibility at 550 nm, linear between wavelengths, or at the nearest one. After bake_psd with a
+ * concentration of 1, whose counts become those of the one returned. Sets *wavelength (um) to where. */
+double bake_visibility(double metres, struct medium *m, double *wavelength);
+
 /* bake_particles - particles from a table of x, y, z (m) and radius (um), path NULL: standard input. bounded: the shape is
  * given, about the origin, and none may lie outside; else it becomes the bounding box, and the centre its middle. Returns the table's history. */
 char *bake_particles(const char *path, int bounded, struct medium *m);

@@ -80,3 +80,23 @@ char *bake_psd(const char *path, double concentration, struct medium *m, int *ex
 	tab_close(t);
 	return history;
 }
+
+double bake_visibility(double metres, struct medium *m, double *wavelength)
+{
+	const size_t waves = (size_t)m->n_waves;
+	size_t high = 0;
+	while (high < waves && m->wavelength[high] < 0.55)
+		high++;
+	size_t low = high > 0 ? high - 1 : 0;
+	high = high < waves ? high : waves - 1;
+	double share = high > low ? (0.55 - m->wavelength[low]) / (m->wavelength[high] - m->wavelength[low]) : 0, sum = 0;
+	for (size_t k = 0; k < (size_t)m->n_classes; k++)
+		sum += m->count[k] * ((1 - share) * m->c_ext[k * waves + low] + share * m->c_ext[k * waves + high]) * 1e-12;
+	if (!(sum > 0))
+		die("--visibility", "cannot be had: there is no extinction anywhere");
+	double scale = -log(0.02) / metres * m->matter / sum;
+	for (int k = 0; k < m->n_classes; k++)
+		m->count[k] *= scale;
+	*wavelength = high > low ? 0.55 : m->wavelength[low];
+	return scale;
+}

@@ -27,4 +27,26 @@ taken half grid
 taken even continuous
 taken voxels continuous
 taken grains explicit
+
+# ---- how far one sees: Koschmieder's extinction, ln(50) / 100 m, at 550 nm, between the wavelengths of the table or at the nearest
+visible() {
+	medium-bake --xsect "$1.xsect" --phase iso.phase --psd one.psd --visibility 100m --box 100m,200m,200m --verbose -o seen.medium 2>err &&
+		grep -q "extinction of 0.03912/m" err && grep -q "$2" err
+	ok $? "--visibility by $1: $(cat err)"
+}
+hg 0 0.45 0.5 0.55 0.6 >iso.phase
+dispersed 1e6 1 0.5 0.6 >between.xsect
+dispersed 1e6 1 0.6 >longer.xsect
+visible one '100 m at 0.55 um where 39120.2/m3'
+visible between '0.55 um where 37257.4/m3'
+visible longer '0.6 um where 39120.2/m3'
+scene s.scene seen.medium 16 ''
+vrender s.scene --samples 1 --verbose -o s.exr 2>&1 | grep -q 'mean optical depth 3.912 '
+ok $? 'an optical depth of 3.912 over 100 m'
+for wrong in '--visibility 100m --concentration 1/m3' ''; do
+	# shellcheck disable=SC2086
+	medium-bake --xsect one.xsect --phase iso.phase --psd one.psd $wrong --box 1m,1m,1m -o no.medium 2>err
+	[ $? -eq 2 ] && [ "$(wc -l <err)" -eq 1 ] && ! [ -e no.medium ]
+	ok $? "refused: $(cat err)"
+done
 done_testing
