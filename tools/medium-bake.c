@@ -64,7 +64,7 @@ int main(int argc, char **argv)
 		{ "--visibility", OPT_M, &visibility, 1e-6, 1e9, "V", "or as many as let one see so far at 550 nm", 0 },
 		{ "--box", OPT_BOX, box, 1e-9, 1e6, "X,Y,Z", "the medium fills a box", 0 },
 		{ "--sphere", OPT_M, &sphere, 1e-9, 1e6, "R", "the medium fills a sphere", 0 },
-		{ "--density", OPT_FILE, &density, 0, 0, "GRID.npy", "relative density in the box, [z][y][x], with --psd", 0 },
+		{ "--density", OPT_FILE, &density, 0, 0, "GRID.npy", "relative density in the box, [z][y][x], or of each class, with --psd", 0 },
 		{ "--voxels", OPT_INT, &voxels, 1, MEDIUM_VOXELS_SIDE, "N", "voxels along the longest side", 0 },
 		{ "--tolerance", OPT_REAL, &tolerance, 1e-6, 0.1, "T", "merge classes and leave out angles that change less", 0 },
 		{ "--verbose", OPT_FLAG, &verbose, 0, 0, NULL, "say what is baked", 1 },
@@ -95,11 +95,12 @@ int main(int argc, char **argv)
 	for (int a = 0; a < 3 && bounded; a++)
 		m.half[a] = m.round ? sphere : box[a] / 2;
 
+	struct bake_matter matter_of = { 0 };
 	if (psd)
-		bake_density(density, (int)voxels, &m);
+		matter_of = bake_density(density, (int)voxels, &m);
 	char *history = classes_cross_sections(xsect, &m);
 	int exact = 0;
-	char *matter = psd ? bake_psd(psd, isnan(visibility) ? concentration : 1, &m, &exact) : bake_particles(args.n ? args.operand[0] : NULL, bounded, &m);
+	char *matter = psd ? bake_psd(psd, isnan(visibility) ? concentration : 1, &matter_of, density, &m, &exact) : bake_particles(args.n ? args.operand[0] : NULL, bounded, &m);
 	if (!isnan(visibility)) {
 		double wavelength;
 		concentration = bake_visibility(visibility, &m, &wavelength);
@@ -118,6 +119,7 @@ int main(int argc, char **argv)
 	}
 	medium_file_write(output, &m);
 	medium_free(&m);
+	free(matter_of.integral);
 	free(history);
 	free(matter);
 	free(phases);

@@ -13,8 +13,8 @@
 
 #define CHUNK 65536              /* voxels read at a time: memory follows the bytes that are there, not what the header claims */
 
-/* The header; returns the bytes of a voxel. */
-static size_t open_array(const struct npy_source *s, size_t n[3])
+/* The header: n[4], of three dimensions 1 before them. Returns the bytes of a voxel. */
+static size_t open_array(const struct npy_source *s, int by_class, size_t n[4])
 {
 	char *header = npy_header(s);
 	static const struct { const char *descr; size_t bytes; } types[] = {
@@ -29,12 +29,20 @@ static size_t open_array(const struct npy_source *s, size_t n[3])
 	if (!bytes)
 		die(s->name, "has type %.*s; a density grid is |u1, <f4 or <f8", type > 32 ? 32 : (int)type, descr);
 	int dims = npy_shape(s, header, n);
-	if (dims != 3)
-		die(s->name, "has %d dimensions; a density grid has 3, [z][y][x]", dims);
-	if (!n[0] || !n[1] || !n[2])
-		die(s->name, "is an empty array");
-	if (n[0] > NPY_VOXELS_MAX || n[1] > NPY_VOXELS_MAX / n[0] || n[2] > NPY_VOXELS_MAX / n[0] / n[1])
-		die(s->name, "has too many voxels");
+	if (dims != 3 && !(by_class && dims == 4))
+		die(s->name, "has %d dimensions; a density grid has 3, [z][y][x]%s", dims, by_class ? ", or 4, [class][z][y][x]" : "");
+	if (dims == 3) {
+		memmove(n + 1, n, 3 * sizeof *n);
+		n[0] = 1;
+	}
+	size_t all = 1;
+	for (int i = 0; i < 4; i++) {
+		if (!n[i])
+			die(s->name, "is an empty array");
+		if (n[i] > NPY_VOXELS_MAX / all)
+			die(s->name, "has too many voxels");
+		all *= n[i];
+	}
 	free(header);
 	return bytes;
 }
@@ -56,15 +64,17 @@ static float value(const unsigned char *p, size_t bytes)
 	return fabs(d) > 3e38 ? INFINITY : (float)d;
 }
 
-struct npy_grid npy_density(const char *path)
+struct npy_grid npy_density(const char *path, size_t *classes)
 {
 	struct npy_source s = { standard(path) ? stdin : fopen(path, "rb"), standard_input(path) };
-	size_t n[3] = { 0 }, have = 0, room = 0;
+	size_t n[4] = { 0 }, have = 0, room = 0;
 	if (!s.f)
 		die(path, "cannot open:");
-	size_t bytes = open_array(&s, n), total = n[0] * n[1] * n[2];
+	size_t bytes = open_array(&s, classes != NULL, n), total = n[0] * n[1] * n[2] * n[3];
 	unsigned char *chunk = xalloc(CHUNK, bytes);
-	struct npy_grid g = { n[2], n[1], n[0], NULL };
+	struct npy_grid g = { n[3], n[2], n[1], NULL };
+	if (classes)
+		*classes = n[0];
 	while (have < total) {
 		size_t count = total - have < CHUNK ? total - have : CHUNK;
 		npy_take(&s, chunk, count * bytes);
@@ -75,7 +85,7 @@ struct npy_grid npy_density(const char *path)
 		for (size_t i = 0; i < count; i++, have++) {
 			float v = value(chunk + i * bytes, bytes);
 			if (!(v >= 0 && isfinite(v)))
-				die(s.name, "voxel [%zu][%zu][%zu] is not a finite density >= 0", have / n[2] / n[1], have / n[2] % n[1], have % n[2]);
+				die(s.name, "voxel [%zu][%zu][%zu] is not a finite density >= 0", have / n[3] / n[2] % n[1], have / n[3] % n[2], have % n[3]);
 			g.v[have] = v;
 		}
 	}

@@ -48,7 +48,7 @@ char *npy_header(const struct npy_source *s)
 	return header;
 }
 
-int npy_shape(const struct npy_source *s, const char *header, size_t n[3])
+int npy_shape(const struct npy_source *s, const char *header, size_t n[4])
 {
 	const char *text = npy_entry(s, header, "shape");
 	int dims = 0;
@@ -58,7 +58,7 @@ int npy_shape(const struct npy_source *s, const char *header, size_t n[3])
 		size_t digits = strspn(text, "0123456789");
 		if (!digits || digits > 18)
 			die(s->name, "damaged array: bad shape");
-		if (dims < 3)
+		if (dims < 4)
 			n[dims] = strtoull(text, NULL, 10);
 		dims++;
 		text += digits;

@@ -19,8 +19,8 @@ char *npy_header(const struct npy_source *s);
 /* npy_entry - what follows 'key': there. */
 const char *npy_entry(const struct npy_source *s, const char *header, const char *key);
 
-/* npy_shape - the sizes, of which the first 3 go to n; returns how many there are. */
-int npy_shape(const struct npy_source *s, const char *header, size_t n[3]);
+/* npy_shape - the sizes, of which the first 4 go to n; returns how many there are. */
+int npy_shape(const struct npy_source *s, const char *header, size_t n[4]);
 
 /* npy_end - die unless the file ends here. */
 void npy_end(const struct npy_source *s);

@@ -84,7 +84,7 @@ static void fields(struct npy_table *t, const char *c)
 struct npy_table *npy_table_open(FILE *f, const char *path)
 {
 	struct npy_table *t = xalloc(1, sizeof *t);
-	size_t n[3];
+	size_t n[4];
 	t->in = (struct npy_source){ f, path };
 	char *header = npy_header(&t->in);
 	fields(t, npy_entry(&t->in, header, "descr"));

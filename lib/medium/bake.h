@@ -5,13 +5,20 @@
 
 #include "medium/medium.h"
 
-/* bake_density - the relative density of a .npy grid (path NULL: 1 everywhere) and its integral over the medium in m^3.
+/* A density, or one of each class, and their integrals over the medium in m^3. */
+struct bake_matter {
+	size_t n;
+	double *integral;
+};
+
+/* bake_density - the relative density of a .npy grid (path NULL: 1 everywhere), or those of classes.
  * longest: average it to so many voxels along the longest side; 0: as it is. The shape must be given. */
-void bake_density(const char *path, int longest, struct medium *m);
+struct bake_matter bake_density(const char *path, int longest, struct medium *m);
 
 /* bake_psd - expected counts by class from a table of radius (um) and weight (sum 1), at a concentration (m^-3) where the density
- * is 1; after bake_density. *exact: whether all radii are the classes' own. Returns the table's history. */
-char *bake_psd(const char *path, double concentration, struct medium *m, int *exact);
+ * is 1, or of each class where its own is; of what bake_density gave, named density. Densities of classes are scaled to the integral that
+ * struct medium wants. *exact: whether all radii are the classes' own. Returns the table's history. */
+char *bake_psd(const char *path, double concentration, const struct bake_matter *matter, const char *density, struct medium *m, int *exact);
 
 /* bake_visibility - the concentration (m^-3) of which things are seen so far away, where the density is 1: Koschmieder's law (1924) with a
  * contrast of 2 %, extinction 3.912 / visibility at 550 nm, linear between wavelengths, or at the nearest one. After bake_psd with a

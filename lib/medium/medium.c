@@ -16,11 +16,15 @@ double medium_depth(const struct medium *m)
 	return c * 1e-12 / medium_volume(m) * 2 * fmin(m->half[0], fmin(m->half[1], m->half[2]));
 }
 
+static size_t voxels(const struct medium *m) { return (size_t)m->voxels[0] * (size_t)m->voxels[1] * (size_t)m->voxels[2]; }
+
+int medium_by_class(const struct medium *m) { return m->n_density > voxels(m); }
+
 int medium_even(const struct medium *m)
 {
 	int even = m->kind == MEDIUM_DENSITY;
-	for (size_t i = 1; i < m->n_density && even; i++)
-		even = m->density[i] == m->density[0];
+	for (size_t i = 1, n = voxels(m); i < m->n_density && even; i++)
+		even = m->density[i] == m->density[i - i % n];
 	return even;
 }
 

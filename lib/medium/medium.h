@@ -36,9 +36,12 @@ struct medium {
 	size_t n_voxel_count;
 	uint32_t *voxel_count;          /* [level][voxel][class], finest level first; see particle_counts.h */
 	size_t n_density;
-	float *density;                 /* [z][y][x] of MEDIUM_DENSITY: relative density, see density.h */
-	double matter;                  /* m^3, integral of the density over the medium */
+	float *density;                 /* [z][y][x] of MEDIUM_DENSITY: relative density, see density.h; or [class][z][y][x], each class's own */
+	double matter;                  /* m^3, integral of the density, or of each class's, over the medium */
 };
+
+/* medium_by_class - whether each class has a density of its own. */
+int medium_by_class(const struct medium *m);
 
 /* medium_volume - in m^3. */
 double medium_volume(const struct medium *m);
@@ -46,7 +49,7 @@ double medium_volume(const struct medium *m);
 /* medium_depth - mean optical depth along the shortest axis at the first wavelength. */
 double medium_depth(const struct medium *m);
 
-/* medium_even - is the density the same everywhere? Not of particles. */
+/* medium_even - is the density, or each class's, the same everywhere? Not of particles. */
 int medium_even(const struct medium *m);
 
 /* medium_free - one whose arrays are its own: a baked one, not one of a file (medium_file_close). */

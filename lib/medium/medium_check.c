@@ -147,7 +147,8 @@ static const char *voxels(const struct medium *m)
 				return "its voxels do not fit its size";
 		return particle_counts_agree(m) ? NULL : "its voxels do not count its particles";
 	}
-	if ((double)m->voxels[0] * m->voxels[1] * m->voxels[2] != (double)m->n_density)
+	double all = (double)m->voxels[0] * m->voxels[1] * m->voxels[2];
+	if (all != (double)m->n_density && all * m->n_classes != (double)m->n_density)
 		return "its density does not agree with its voxels";
 	for (size_t i = 0; i < m->n_density; i++)
 		if (!within(m->density[i], 0, MEDIUM_VALUE))

@@ -113,7 +113,7 @@ struct placement *placement_new(const struct placement_request *r, struct tab *s
 	p->density = density;
 	p->top = 1;
 	if (density) {
-		p->grid = npy_density(density);
+		p->grid = npy_density(density, NULL);
 		p->top = scale(&p->grid, density, r->round);
 	}
 	p->tries = INFINITY;

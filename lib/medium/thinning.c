@@ -186,6 +186,17 @@ static void regroup(struct medium *m, const struct common *c, const struct group
 		memcpy(&class, m->particle + 4 * i + 3, sizeof class);
 		memcpy(m->particle + 4 * i + 3, &becomes[class], sizeof class);
 	}
+	if (medium_by_class(m)) {       /* all have the same integral: means by number */
+		const size_t voxels = m->n_density / (size_t)m->n_classes;
+		for (size_t j = 0; j < (size_t)n; j++)
+			for (size_t i = 0; i < voxels; i++) {
+				double all = 0;
+				for (int k = g[j].first; k <= g[j].last; k++)
+					all += (count[j] > 0 ? m->count[k] / count[j] : k == g[j].first) * m->density[(size_t)k * voxels + i];
+				m->density[j * voxels + i] = (float)all;    /* behind what is still read */
+			}
+		m->n_density = (size_t)n * voxels;
+	}
 	double **const replaced[] = { &m->radius, &m->count, &m->c_ext, &m->c_sca }, *const by[] = { radius, count, c_ext, c_sca };
 	for (size_t i = 0; i < sizeof by / sizeof *by; i++) {
 		free(*replaced[i]);
@@ -223,7 +234,7 @@ void thinning_classes(struct medium *m, double tolerance, struct thinned *t)
 	struct group *g = xalloc((size_t)n, sizeof *g), *pair = xalloc((size_t)n, sizeof *pair);    /* pair[j]: groups j and j + 1 as one */
 	for (int j = 0; j < n; j++)
 		g[j].first = g[j].last = j;
-	if (m->kind == MEDIUM_DENSITY) {
+	if (m->kind == MEDIUM_DENSITY && !medium_by_class(m)) {
 		g[0].last = n - 1;
 		n = changed = 1;
 	}

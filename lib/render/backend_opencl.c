@@ -135,7 +135,7 @@ static char *options_for(const struct cl *c, const struct scene *s, cl_device_id
 		snprintf(parts, sizeof parts, " -DCHUNK_SHIFT=%d", shift);
 	const char *exact = rounding & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT ? " -cl-fp32-correctly-rounded-divide-sqrt" : "";
 	if (s->n_volumes == 1)
-		snprintf(model, sizeof model, " -DTRANSPORT=%d -DCOUNTED=%d", v->transport, v->counted);
+		snprintf(model, sizeof model, " -DTRANSPORT=%d -DCOUNTED=%d -DCLASSED=%d", v->transport, v->counted, v->classed);
 	return xtext("-cl-std=CL1.2%s -DLANES=%d -DVOLUMES=%d%s%s -DPEAK=%d -DCHANNELS=%d -DSPECTRAL=%d -DHAS_GROUND=%d -DALL_ISOTROPIC=%d"
 	             " -DCHUNKS=%d%s", exact, (int)c->lanes, s->n_volumes, model, waves, s->peak > 0, s->channels, s->spectral,
 	             s->surfaces.has_ground, s->isotropic, chunks, parts);

@@ -37,8 +37,8 @@ static int fill_cubes(const struct medium *m, const int *cell, float *out)
 
 static int clamp(int i, int n) { return i < 0 ? 0 : i > n - 1 ? n - 1 : i; }
 
-/* Faces of a density: cell i lies between nodes i - 1 and i, the outermost nodes going on to the border. */
-static int fill_density(const struct medium *m, const int *cell, float *out)
+/* Faces of a field: cell i lies between nodes i - 1 and i, the outermost nodes going on to the border. */
+static int nodes_of(const struct medium *m, const float *field, const int *cell, float *out)
 {
 	int some = 0;
 	for (int z = 0; z <= BRICK; z++)
@@ -47,10 +47,32 @@ static int fill_density(const struct medium *m, const int *cell, float *out)
 				for (int k = 0; k < 2; k++) {
 					size_t i = (size_t)clamp(cell[0] + x - 1, m->voxels[0]), j = (size_t)clamp(cell[1] + y + k - 1, m->voxels[1]);
 					size_t l = (size_t)clamp(cell[2] + z - 1, m->voxels[2]);
-					float v = m->density[(l * (size_t)m->voxels[1] + j) * (size_t)m->voxels[0] + i];
+					float v = field[(l * (size_t)m->voxels[1] + j) * (size_t)m->voxels[0] + i];
 					out[z * FACE + y * FACE_ROW + 2 * x + k] = v;
 					some |= v > 0;
 				}
+	return some;
+}
+
+static int fill_density(const struct medium *m, const int *cell, float *out) { return nodes_of(m, m->density, cell, out); }
+
+/* Extinction by wavelength where each class has its own density. */
+static int fill_classes(const struct medium *m, const int *cell, float *out)
+{
+	const size_t voxels = (size_t)m->voxels[0] * (size_t)m->voxels[1] * (size_t)m->voxels[2];
+	int some = 0;
+	memset(out, 0, BRICK_CORNERS * (size_t)m->n_waves * sizeof *out);
+	for (int k = 0; k < m->n_classes; k++) {
+		float own[BRICK_CORNERS];
+		if (!nodes_of(m, m->density + (size_t)k * voxels, cell, own))
+			continue;
+		some = 1;
+		for (int w = 0; w < m->n_waves; w++) {
+			double c = m->count[k] / m->matter * m->c_ext[k * m->n_waves + w] * 1e-12;
+			for (int i = 0; i < BRICK_CORNERS; i++)
+				out[w * BRICK_CORNERS + i] += (float)(c * own[i]);
+		}
+	}
 	return some;
 }
 
@@ -77,9 +99,9 @@ static void distances(const struct bricks *b)
 
 void bricks_make(struct bricks *b, const struct medium *m)
 {
-	int counted = m->kind == MEDIUM_PARTICLES;
-	size_t one = counted ? (size_t)(BRICK_CELLS * m->n_waves) : BRICK_CORNERS, kept = 0;
-	fill_fn *fill = counted ? fill_cubes : fill_density;
+	int counted = m->kind == MEDIUM_PARTICLES, classed = medium_by_class(m);
+	size_t one = counted ? (size_t)(BRICK_CELLS * m->n_waves) : BRICK_CORNERS * (classed ? (size_t)m->n_waves : 1), kept = 0;
+	fill_fn *fill = counted ? fill_cubes : classed ? fill_classes : fill_density;
 	float *scratch = xalloc(one, sizeof *scratch);
 	memset(b, 0, sizeof *b);
 	for (int a = 0; a < 3; a++)

@@ -32,6 +32,13 @@ static void optics(struct setup *u, int n, const struct medium *m)
 		albedo[classes * waves + w] = ext > 0 ? (float)fmin(1, sca / ext) : 0;
 	}
 	v->largest_inverse = 1 / v->largest;
+	if (v->classed) {               /* classes are drawn by number density x c_ext, as much as a factor of all */
+		double most = 0;
+		for (size_t k = 0; k < classes; k++)
+			most = fmax(most, m->count[k]);
+		for (size_t i = 0; i < classes * waves && most > 0; i++)
+			disc_radius2[i] = (float)(disc_radius2[i] * (m->count[i / waves] / most));
+	}
 	SET_TABLE(u, n, extinction, extinction, waves);
 	SET_TABLE(u, n, disc_radius2, disc_radius2, classes * waves);
 	SET_TABLE(u, n, albedo, albedo, (classes + 1) * waves);
@@ -131,6 +138,8 @@ static void voxels(struct setup *u, int n, const struct medium *m)
 	memcpy(v->bricks, u->bricks[n].size, sizeof v->bricks);
 	SET_TABLE(u, n, brick, u->bricks[n].brick, u->bricks[n].n_brick);
 	SET_TABLE(u, n, voxel, u->bricks[n].voxel, u->bricks[n].n_voxel);
+	if (v->classed)
+		SET_TABLE(u, n, density, m->density, m->n_density);
 	if (v->counted)
 		SET_TABLE(u, n, count, (const int *)m->voxel_count, (size_t)m->voxels[0] * (size_t)m->voxels[1] * (size_t)m->voxels[2] * (size_t)m->n_classes);
 }
@@ -141,11 +150,14 @@ static void voxels(struct setup *u, int n, const struct medium *m)
 static double densest(const struct setup *u, int n, int w)
 {
 	const struct bricks *b = &u->bricks[n];
-	size_t step = u->scene.volume[n].counted ? (size_t)u->scene.n_waves : 1;
+	const struct volume *v = &u->scene.volume[n];
+	const size_t waves = (size_t)u->scene.n_waves;
 	double most = 0;
-	for (size_t i = step > 1 ? (size_t)w : 0; i < b->n_voxel; i += step)
-		most = fmax(most, b->voxel[i]);
-	return u->scene.volume[n].counted ? most : most * u->tables[n].extinction[w];
+	for (size_t i = 0; i < b->n_voxel; i++) {
+		size_t own = v->counted ? i % waves : v->classed ? i / BRICK_CORNERS % waves : (size_t)w;
+		most = own == (size_t)w ? fmax(most, b->voxel[i]) : most;
+	}
+	return v->counted || v->classed ? most : most * u->tables[n].extinction[w];
 }
 
 /* Refuse what would hardly end. Of a medium that does not absorb, a path from outside meets 4 V/S times the mean extinction on the average
@@ -176,9 +188,10 @@ void volume_setup(struct setup *u, int n, const struct scenefile *f, const struc
 {
 	struct volume *v = &u->scene.volume[n];
 	v->counted = m->kind == MEDIUM_PARTICLES;
+	v->classed = v->transport == TRANSPORT_GRID && medium_by_class(m);
 	v->n_classes = m->n_classes;
-	/* particles scatter by their class, everything else as the mixture */
-	v->only_class = v->transport == TRANSPORT_CONTINUOUS || !v->counted ? m->n_classes : m->n_classes == 1 ? 0 : -1;
+	/* particles scatter by their class, as do densities by class, everything else as the mixture */
+	v->only_class = v->classed ? -1 : v->transport == TRANSPORT_CONTINUOUS || !v->counted ? m->n_classes : m->n_classes == 1 ? 0 : -1;
 	v->round = m->round;
 	setup_floats(m->half, v->extent);
 	optics(u, n, m);

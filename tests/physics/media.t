@@ -5,8 +5,6 @@
 # shellcheck source=tests/support/render.sh
 . "$top/tests/support/render.sh"
 
-# shellcheck source=tests/support/cpu.sh
-. "$top/tests/support/cpu.sh"
 one_size
 hg 0.5 0.45 0.55 0.65 >5.phase
 hg 0.8 0.45 0.55 0.65 >8.phase

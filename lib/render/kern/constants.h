@@ -10,7 +10,7 @@
 #else
 #define N_VOLUMES (s->n_volumes)
 #endif
-#ifdef TRANSPORT               /* of the only volume, as the next two */
+#ifdef TRANSPORT               /* of the only volume, as the next three */
 #define TRANSPORT_OF(v) TRANSPORT
 #else
 #define TRANSPORT_OF(v) ((v)->transport)
@@ -24,6 +24,11 @@
 #define IS_COUNTED(v) COUNTED
 #else
 #define IS_COUNTED(v) ((v)->counted)
+#endif
+#ifdef CLASSED
+#define IS_CLASSED(v) CLASSED
+#else
+#define IS_CLASSED(v) ((v)->classed)
 #endif
 #ifdef ALL_ISOTROPIC
 #define IS_ISOTROPIC ALL_ISOTROPIC

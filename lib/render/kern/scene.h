@@ -37,8 +37,10 @@ enum { ATTENUATION_PRODUCT, ATTENUATION_EXPONENTIAL };
 	LARGE(float, particle)     /* [particle][4] position m, the bits of the class; cell by cell */ \
 	LARGE(int, first)          /* [cell] its first particle; one more at the end */ \
 	LARGE(int, brick)          /* [brick] the number of its voxels, or minus its distance to any that has some; see voxels.h */ \
-	LARGE(float, voxel)        /* by brick: [voxel][wave] extinction, m^-1; or nodes of density relative to extinction[] */ \
+	LARGE(float, voxel)        /* by brick: [voxel][wave] extinction, m^-1; or nodes of density relative to extinction[], or, where each \
+	                              class has its own, [wave] nodes of extinction, m^-1 */ \
 	LARGE(int, count)          /* [voxel][class] particles, row by row */ \
+	LARGE(float, density)      /* [class][node] density, where each class has its own, in units that disc_radius2 has in it, too */ \
 	LARGE(float, map)          /* [row][column][3] radiance */ \
 	LARGE(int, map_cdf)        /* [row + 1] of the rows, then [row][column + 1] of each row's texels, in units of 2^-31 */
 #define TABLE_PLACE(type, name) int name;
@@ -47,7 +49,8 @@ struct table_places { TABLES(TABLE_PLACE, TABLE_PLACE) };
 /* A medium and the model by which rays pass it. */
 struct volume {
 	int transport, attenuation;
-	int counted;               /* made of particles: voxels are cubes that count them, else the cells between the nodes of a density */
+	int counted;               /* made of particles: voxels are cubes that count them, else the cells between the nodes of a density, */
+	int classed;               /* of which each class may have its own */
 	int n_classes;             /* class n_classes is the mixture of the whole medium */
 	int only_class;            /* that scatters, or -1 where there are several */
 	float centre[3];           /* of all that follows */

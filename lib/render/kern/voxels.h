@@ -5,7 +5,8 @@
  * any direction, the nearest that is not empty lies: a ray passes all the empty ones around it in one step. The outermost are empty,
  * so that a ray that rounding puts a cell too far is still among bricks. A brick of cubes holds [z][y][x][wave]. A brick of a density
  * holds the corners of its cells as faces across z, so that a cell is read by two loads of four floats: [z of 5][y of 4][x of 5]
- * [y, y + 1]. lib/render/bricks.c makes them. */
+ * [y, y + 1]. Where each class has a density of its own, a brick is one for each wavelength, of extinction, and each class's density is
+ * looked up where a flight has collided. lib/render/bricks.c makes them. */
 #ifndef KERN_VOXELS_H
 #define KERN_VOXELS_H
 
@@ -21,9 +22,12 @@
  * noisy, and a thick medium is not crossed in vain. */
 #define SHADOW_DEPTH 4.f
 
+/* Whether extinction differs from wavelength to wavelength in its place, not in a factor alone. */
+#define BY_WAVE(v) (IS_COUNTED(v) || IS_CLASSED(v))
+
 struct voxel_dda {
 	mv reached;                /* came to the target: of a flight in the hero's optical depth, else in the least of all */
-	fv depth[CARRIED];         /* passed: in cubes the optical depth of each wavelength, in a density its integral, in depth[0] */
+	fv depth[CARRIED];         /* passed: the optical depth of each wavelength; of a single density its integral, in depth[0] */
 	fv target;
 	fv asked;                  /* of a camera flight that looks how thick the volume is: where it would end; else -1 */
 	fv whole[CARRIED];         /* optical depth of all that lies before the end of a forced flight */
@@ -52,7 +56,7 @@ FN void voxels_begin(const struct scene *s, const struct volume *v, const struct
 {
 	fv target = free_path(SEL(flight, draw_bits(random, DRAW_FLIGHT), draw_bits(random, DRAW_SHADOW)));
 	target += SEL(flight, FV(0.f), FV(SHADOW_DEPTH));
-	if (!IS_COUNTED(v)) {      /* in units of the integral of the density */
+	if (!BY_WAVE(v)) {         /* in units of the integral of the density */
 		fv own = of_hero(s, t->extinction, m, w), thinnest = own;
 		EACH_WAVE(j)
 			thinnest = fv_min(thinnest, of_wave(s, t->extinction, 0, m, w, j));
@@ -86,7 +90,7 @@ FN void voxels_begin(const struct scene *s, const struct volume *v, const struct
 FN void voxels_measure(const struct scene *s, const struct volume *v, const struct tables *t, struct voxel_dda *q, mv m, struct waves w)
 {
 	fv least = FV(FORCED_DEPTH), thickest = FV(0.f);
-	if (!IS_COUNTED(v)) {
+	if (!BY_WAVE(v)) {
 		EACH_WAVE(j)
 			thickest = fv_max(thickest, of_wave(s, t->extinction, 0, m, w, j));
 		least = SEL(lt(FV(0.f), thickest), least / thickest, FV(0.f));
@@ -101,18 +105,18 @@ FN mv voxels_force(const struct scene *s, const struct volume *v, const struct t
 {
 	fv whole[CARRIED], thickest = FV(0.f);
 	EACH_WAVE(j) {
-		whole[j] = IS_COUNTED(v) ? q->depth[j] : of_wave(s, t->extinction, 0, m, w, j) * q->depth[0];
+		whole[j] = BY_WAVE(v) ? q->depth[j] : of_wave(s, t->extinction, 0, m, w, j) * q->depth[0];
 		thickest = fv_max(thickest, whole[j]);
 	}
 	m &= le(FV(0.f), q->asked);
 	mv through = m & NOT(q->reached);
-	fv own = hero_among(s, whole, w), passed = IS_COUNTED(v) ? own : q->depth[0], target = q->asked;
+	fv own = hero_among(s, whole, w), passed = BY_WAVE(v) ? own : q->depth[0], target = q->asked;
 	*thin = through & lt(FV(0.f), thickest) & lt(thickest, FV(FORCED_DEPTH));
 	mv again = *thin | (through & le(q->asked, passed)) | (m & q->reached & lt(q->asked, q->target));
 	SET(m, q->asked, FV(-1.f));
 	if (any(*thin)) {
 		fv forced = forced_path(draw_bits(random, DRAW_FLIGHT), fv_min(own, FV(FORCED_DEPTH)));
-		if (!IS_COUNTED(v)) {
+		if (!BY_WAVE(v)) {
 			fv sigma = of_hero(s, t->extinction, m, w);
 			forced = SEL(lt(FV(0.f), sigma), forced / sigma, FV(FAR));
 		}
@@ -165,6 +169,19 @@ FN fv density_along(const struct voxel_dda *q, const fv *p, fv t)
 	return e + (f - e) * z;
 }
 
+/* The integral of a field over span from t, within a cell: that of a cubic, by Gauss's two nodes exactly. */
+FN fv passed_in(const struct scene *s, const struct volume *v, const struct tables *t, const struct voxel_dda *q, mv m, iv brick, const iv *i,
+                fv from, fv span)
+{
+	fv p[8];
+	(void)s, (void)v;
+	corners(t, m, brick, i, p);
+	return span * (0.5f * (density_along(q, p, from + span * 0.211324865f) + density_along(q, p, from + span * 0.788675135f)));
+}
+
+/* The brick of wavelength j among those of a brick. */
+FN iv field_of(const struct scene *s, iv brick, struct waves w, int j) { return brick * N_WAVES + wave_of(s, w, j); }
+
 /* One cell, or empty bricks at once, of all lanes under way (3D-DDA). */
 FN void voxels_step(const struct scene *s, const struct volume *v, const struct tables *t, struct traversal *g, struct voxel_dda *q,
                     struct waves w, const struct random *random)
@@ -205,6 +222,19 @@ FN void voxels_step(const struct scene *s, const struct volume *v, const struct 
 		SET(hit, q->t, q->t + span);
 		q->reached |= hit;
 		g->going &= NOT(hit);
+	} else if (IS_CLASSED(v)) {
+		fv all[CARRIED], own = FV(FAR);
+		EACH_WAVE(j) {
+			all[j] = q->depth[j] + passed_in(s, v, t, q, full, field_of(s, brick, w, j), i, q->t, span);
+			mv mine = CARRIED == 1 ? ALL_LANES : (g->flight & ieq(w.hero, IV(j))) | (NOT(g->flight) & lt(all[j], own));
+			own = SEL(mine, all[j], own);
+		}
+		mv hit = full & le(q->target, own);
+		SET(hit, q->span, span);
+		EACH_WAVE(j)
+			SET(full & NOT(hit), q->depth[j], all[j]);
+		q->reached |= hit;
+		g->going &= NOT(hit);
 	} else {
 		fv p[8];
 		corners(t, full, brick, i, p);
@@ -229,8 +259,8 @@ FN void voxels_step(const struct scene *s, const struct volume *v, const struct 
 	g->going &= lt(q->t, q->t1);
 }
 
-/* Where lanes that reached the target are, from entry; depth[0] of a density is then the target. */
-FN fv target_place(const struct volume *v, const struct tables *t, struct voxel_dda *q, mv m)
+/* Where lanes that reached the target are, from entry; depth[] is then what is passed up to there. */
+FN fv target_place(const struct scene *s, const struct volume *v, const struct tables *t, struct voxel_dda *q, mv m, struct waves w)
 {
 	m &= q->reached;
 	if (IS_COUNTED(v) || !any(m))
@@ -238,15 +268,21 @@ FN fv target_place(const struct volume *v, const struct tables *t, struct voxel_
 	fv p[8], f[4], span = q->span;
 	iv i[3];
 	indices(q, i);
-	corners(t, m, brick_of(v, t, m, i), i, p);
+	iv brick = brick_of(v, t, m, i);
+	corners(t, m, IS_CLASSED(v) ? brick * N_WAVES + hero_of(s, w) : brick, i, p);
 	EACH(k, 4)    /* four values fix the cubic, which is not negative */
 		f[k] = fv_max(FV(0.f), density_along(q, p, q->t + span * ((float)k * 0.333333333f)));
 	fv all = span * 0.125f * (f[0] + 3.f * (f[1] + f[2]) + f[3]);
 	fv cubic[5] = { f[0], -5.5f * f[0] + 9.f * f[1] - 4.5f * f[2] + f[3], 9.f * f[0] - 22.5f * f[1] + 18.f * f[2] - 4.5f * f[3],
 		-4.5f * f[0] + 13.5f * f[1] - 13.5f * f[2] + 4.5f * f[3], FV(0.f) };
-	fv share = SEL(lt(FV(0.f), all), fv_min(FV(1.f), (q->target - q->depth[0]) / all), FV(0.f));
-	SET(m, q->t, q->t + span * invert_density(cubic, share, 4));
-	SET(m, q->depth[0], q->target);
+	fv before = IS_CLASSED(v) ? hero_among(s, q->depth, w) : q->depth[0];
+	fv share = SEL(lt(FV(0.f), all), fv_min(FV(1.f), (q->target - before) / all), FV(0.f)), on = span * invert_density(cubic, share, 4);
+	if (IS_CLASSED(v))
+		EACH_WAVE(j)
+			SET(m, q->depth[j], q->depth[j] + passed_in(s, v, t, q, m, field_of(s, brick, w, j), i, q->t, on));
+	else
+		SET(m, q->depth[0], q->target);
+	SET(m, q->t, q->t + on);
 	return q->t;
 }
 
@@ -256,7 +292,7 @@ FN void voxels_transmittance(const struct scene *s, const struct volume *v, cons
 	fv thinnest = FV(FAR);
 	(void)g;
 	EACH_WAVE(j) {
-		out[j] = IS_COUNTED(v) ? q->depth[j] : of_wave(s, t->extinction, 0, m, w, j) * q->depth[0];
+		out[j] = BY_WAVE(v) ? q->depth[j] : of_wave(s, t->extinction, 0, m, w, j) * q->depth[0];
 		thinnest = fv_min(thinnest, out[j]);
 	}
 	fv sure = fv_max(FV(0.f), thinnest - SHADOW_DEPTH);    /* e^-sure was the chance to come through */
@@ -281,18 +317,54 @@ FN iv class_in(const struct scene *s, const struct volume *v, const struct table
 	return class;
 }
 
+/* The same of densities: by each class's at the place, trilinear between its nodes, of which v->voxels are one more. */
+FN iv class_at(const struct scene *s, const struct volume *v, const struct tables *t, mv m, const struct voxel_dda *q, iv wave, fv u)
+{
+	iv i[3], node[3][2];
+	fv share[3][2];
+	indices(q, i);
+	EACH(a, 3) {
+		iv last = IV(v->voxels[a] - 2), first = i[a] - (BRICK + 1);
+		node[a][0] = SEL(ilt(first, IV(0)), IV(0), first);
+		node[a][1] = iv_min(first + 1, last);
+		share[a][1] = q->at[a] + q->d[a] * q->t - q->cell[a];
+		share[a][0] = 1.f - share[a][1];
+	}
+	int nx = v->voxels[0] - 1, ny = v->voxels[1] - 1, nodes = nx * ny * (v->voxels[2] - 1);
+	iv class = IV(0);
+	fv all = FV(0.f), sum = FV(0.f);
+	for (int pass = 0; pass < 2; pass++)
+		for (int k = 0; k < v->n_classes; k++) {
+			fv own = FV(0.f);
+			for (int c = 0; c < 8; c++) {
+				iv at = (node[2][c >> 2] * ny + node[1][c >> 1 & 1]) * nx + node[0][c & 1];
+				own += share[2][c >> 2] * share[1][c >> 1 & 1] * share[0][c & 1] * gather(m, t->density, at + k * nodes);
+			}
+			own = fv_max(own, FV(0.f)) * gather(m, t->disc_radius2, k * N_WAVES + wave);
+			if (pass) {
+				class = SEL(lt(FV(0.f), own) & le(sum, u * all), IV(k), class);
+				sum += own;
+			} else {
+				all += own;
+			}
+		}
+	return class;
+}
+
 FN struct collision voxels_end(const struct scene *s, const struct volume *v, const struct tables *t, struct traversal *g, struct voxel_dda *q,
                                mv m, struct waves w, const struct random *random, fv *flight_pdf)
 {
-	struct collision c = { m & q->reached, g->entry, target_place(v, t, q, m), IV(v->n_classes), IV(NONE), IV(0) };
+	struct collision c = { m & q->reached, g->entry, target_place(s, v, t, q, m, w), IV(v->n_classes), IV(NONE), IV(0) };
 	c.point = add(g->entry, scale(g->along, c.t));
 	c.t += g->t0;
-	if (IS_COUNTED(v))
+	if (IS_CLASSED(v))
+		c.class = class_at(s, v, t, c.happened, q, hero_of(s, w), draw(random, DRAW_CLASS));
+	else if (IS_COUNTED(v))
 		c.class = v->only_class >= 0 ? IV(v->only_class)
 		    : class_in(s, v, t, c.happened, q, hero_of(s, w), draw(random, DRAW_CLASS));
 	EACH_WAVE(j) {
-		fv own = of_wave(s, t->extinction, 0, m, w, j), depth = IS_COUNTED(v) ? q->depth[j] : own * q->depth[0];
-		fv rate = IS_COUNTED(v) ? of_class(s, v, t->disc_radius2, c.happened, c.class, w, j) * v->largest_inverse : own;
+		fv own = of_wave(s, t->extinction, 0, m, w, j), depth = BY_WAVE(v) ? q->depth[j] : own * q->depth[0];
+		fv rate = BY_WAVE(v) ? of_class(s, v, t->disc_radius2, c.happened, c.class, w, j) * v->largest_inverse : own;
 		flight_pdf[j] = expneg(depth) * SEL(c.happened, rate, FV(1.f));
 		if (CARRIED > 1 && any(m & g->forced))
 			SET(g->forced, flight_pdf[j], flight_pdf[j] / one_less_exp(fv_max(q->whole[j], FV(1e-30f))));
