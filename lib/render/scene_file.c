@@ -251,6 +251,8 @@ static void media(const char *path, config_setting_t *root, struct scenefile *s)
 	config_setting_t *one = config_setting_get_member(root, "medium"), *several = config_setting_get_member(root, "media");
 	if (!one == !several)
 		die(path, one ? "has both 'medium' and 'media'" : "needs a group 'medium', or a list 'media'");
+	if (one && config_setting_is_list(one))
+		bad(path, one, "medium must be one group { .. }; several are media = ( {..}, {..} )");
 	if (one) {
 		medium(path, one, &s->medium[s->n_media++]);
 		return;

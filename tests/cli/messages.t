@@ -46,7 +46,8 @@ camera|camera = { position = [0.0, 0.0, 3.0]; target = [0.0, 0.0]; fov = 30; res
 camera|camera = { position = [0.0, 0.0, 1e10]; target = [0.0, 0.0, 0.0]; fov = 30; resolution = [6, 4]; };|1: camera.position 1e\+10 is out of range
 camera|camera = { position = [0.0, 0.0, 3.0]; target = [0.0, 0.0, 0.0]; fov = 200; resolution = [6, 4]; };|1: camera.fov 200 is out of range
 camera|camera = 3;|1: camera must be one group
-medium|medium = ( { file = "grains.medium"; }, { file = "grains.medium"; } );|2: medium must be one group \{ .. \} \(known there: file position\)
+medium|medium = ( { file = "grains.medium"; }, { file = "grains.medium"; } );|2: medium must be one group \{ .. \}; several are media = \(
+medium|medium = 3;|2: medium must be one group \{ .. \} \(known there: file position transport\)
 medium|medium = { file = 3; };|2: medium.file must be a string
 medium|medium = { };|2: medium needs a key 'file'
 lights|lights = ( { type = "sun"; direction = [0, -1, 0]; irradiance = 1; }, { type = "sun"; direction = [0, -1, 0]; irradiance = "x"; } );|3: lights\[1\].irradiance must be a number
