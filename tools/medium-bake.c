@@ -100,7 +100,8 @@ int main(int argc, char **argv)
 		matter_of = bake_density(density, (int)voxels, &m);
 	char *history = classes_cross_sections(xsect, &m);
 	int exact = 0;
-	char *matter = psd ? bake_psd(psd, isnan(visibility) ? concentration : 1, &matter_of, density, &m, &exact) : bake_particles(args.n ? args.operand[0] : NULL, bounded, &m);
+	char *matter = psd ? bake_psd(psd, isnan(visibility) ? concentration : 1, &matter_of, density, &m, &exact)
+	    : bake_particles(args.n ? args.operand[0] : NULL, bounded, &m);
 	if (!isnan(visibility)) {
 		double wavelength;
 		concentration = bake_visibility(visibility, &m, &wavelength);

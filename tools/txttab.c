@@ -1,4 +1,4 @@
-/* txttab - text, CSV or NumPy to a table: what tabtxt prints, read back, and what other programs write. */
+/* txttab - text, CSV, NumPy or PLY to a table: what tabtxt prints, read back, and what other programs write. */
 #include "base/die.h"
 #include "base/opt.h"
 #include "format/tab_import.h"
@@ -9,11 +9,11 @@ int main(int argc, char **argv)
 {
 	const char *output = NULL, *units = NULL;
 	const struct opt opts[] = {
-		{ "--units", OPT_TEXT, &units, 0, 0, "A=U[,B=V..]", "units of columns of CSV and NumPy, like x=m,radius=um", 0 },
+		{ "--units", OPT_TEXT, &units, 0, 0, "A=U[,B=V..]", "units of columns of CSV, NumPy and PLY, like x=m,radius=um", 0 },
 		OPT_OUTPUT(&output),
 		OPT_END
 	};
-	const struct opt_tool tool = { "[OPTION].. [TEXT]", "Read a table as text, CSV or NumPy, as tabtxt and others write it.", opts, 0 };
+	const struct opt_tool tool = { "[OPTION].. [TEXT]", "Read a table as text, CSV, NumPy or PLY, as tabtxt and others write it.", opts, 0 };
 	struct opt_line args = opt_parse(&tool, argc, argv);
 	if (args.n > 1)
 		die(args.operand[1], "one input at most");

@@ -81,6 +81,10 @@ struct csv *csv_open(FILE *f, const char *path)
 	t->in = (struct text_lines){ .f = f, .path = path };
 	if (!next_line(&t->in))
 		die(path, "is empty");
+	if (!strcmp(t->in.line, "ply")) {
+		csv_close(t);
+		return NULL;
+	}
 	for (char *rest = t->in.line; rest;)
 		name(t, field(&t->in, t->n + 1, rest, &rest));
 	return t;

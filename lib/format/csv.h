@@ -11,7 +11,7 @@
 struct csv;
 
 /* csv_open - begin to read; f remains the caller's, path is for messages. A first line that names no columns is refused: each name
- * is a column's (tab.h), and not a number. */
+ * is a column's (tab.h), and not a number. NULL where it is "ply", after which a PLY file goes on. */
 struct csv *csv_open(FILE *f, const char *path);
 
 /* csv_columns - what the first line names, n, as f64; units are "1", for the caller to know better. */

@@ -1,32 +1,26 @@
 #include "format/npy_table.h"
 
 #include "base/die.h"
+#include "format/binary_number.h"
 #include "format/limits.h"
 #include "format/npy_header.h"
 
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define ROW_MAX (8 * TAB_COLS)
 
-/* How a field is written, and the column that holds all its values. */
-static const struct number {
-	const char *descr;
-	char kind;               /* i, u or f */
-	size_t bytes;
-	enum tab_type type;
-} numbers[] = {
-	{ "|b1", 'u', 1, TAB_I32 }, { "|i1", 'i', 1, TAB_I32 }, { "<i2", 'i', 2, TAB_I32 }, { "<i4", 'i', 4, TAB_I32 },
-	{ "<i8", 'i', 8, TAB_F64 }, { "|u1", 'u', 1, TAB_I32 }, { "<u2", 'u', 2, TAB_I32 }, { "<u4", 'u', 4, TAB_F64 },
-	{ "<u8", 'u', 8, TAB_F64 }, { "<f4", 'f', 4, TAB_F32 }, { "<f8", 'f', 8, TAB_F64 },
+/* How a field is written. */
+static const struct { const char *descr; struct binary_number number; } numbers[] = {
+	{ "|b1", { 'u', 1 } }, { "|i1", { 'i', 1 } }, { "<i2", { 'i', 2 } }, { "<i4", { 'i', 4 } }, { "<i8", { 'i', 8 } }, { "|u1", { 'u', 1 } },
+	{ "<u2", { 'u', 2 } }, { "<u4", { 'u', 4 } }, { "<u8", { 'u', 8 } }, { "<f4", { 'f', 4 } }, { "<f8", { 'f', 8 } },
 };
 
 struct npy_table {
 	struct npy_source in;
 	int n;
 	struct tab_col cols[TAB_COLS];
-	const struct number *number[TAB_COLS];
+	struct binary_number number[TAB_COLS];
 	size_t row_size, at, rows;
 };
 
@@ -63,19 +57,19 @@ static void fields(struct npy_table *t, const char *c)
 		const char *bad = tab_col_valid(col);
 		if (bad)
 			die(t->in.name, "field %d, '%s': %s", t->n + 1, col->name, bad);
-		const struct number *number = NULL;
+		const struct binary_number *number = NULL;
 		if (word(&c, descr) && *c++ == ')')
 			for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
 				if (!strcmp(descr, numbers[i].descr))
-					number = &numbers[i];
+					number = &numbers[i].number;
 		if (!number)
 			die(t->in.name, "field %s: is not one little-endian number (i1 to i8, u1 to u8, f4, f8)", col->name);
 		for (int i = 0; i < t->n; i++)
 			if (!strcmp(t->cols[i].name, col->name))
 				die(t->in.name, "field %s stands twice", col->name);
-		col->type = number->type;
-		t->number[t->n++] = number;
-		t->row_size += number->bytes;
+		col->type = binary_number_column(*number);
+		t->number[t->n++] = *number;
+		t->row_size += (size_t)number->bytes;
 	}
 	if (!t->n || *c != ']')
 		die(t->in.name, "damaged array: bad fields");
@@ -102,28 +96,6 @@ struct tab_col *npy_table_columns(struct npy_table *t, int *n)
 	return t->cols;
 }
 
-static double value(const struct npy_table *t, int i, const unsigned char *p)
-{
-	const struct number *number = t->number[i];
-	uint64_t bits = 0;
-	for (size_t b = number->bytes; b-- > 0;)
-		bits = bits << 8 | p[b];
-	if (number->kind == 'f') {
-		float single;
-		double d;
-		memcpy(&single, &(uint32_t){ (uint32_t)bits }, 4);
-		memcpy(&d, &bits, 8);
-		return number->bytes == 4 ? (double)single : d;
-	}
-	uint64_t sign = number->kind == 'i' ? UINT64_C(1) << (8 * number->bytes - 1) : 0;
-	int negative = (bits & sign) != 0;
-	/* the magnitude: two's complement, wrapped to the number's width */
-	uint64_t size = negative ? (~bits + 1) & (sign | (sign - 1)) : bits;
-	if (size > UINT64_C(1) << 53)
-		die(t->in.name, "row %zu: column %s: an integer beyond 2^53", t->at, t->cols[i].name);
-	return negative ? -(double)size : (double)size;
-}
-
 int npy_table_next(struct npy_table *t, double *row)
 {
 	unsigned char bytes[ROW_MAX];
@@ -133,8 +105,9 @@ int npy_table_next(struct npy_table *t, double *row)
 	}
 	npy_take(&t->in, bytes, t->row_size);
 	t->at++;
-	for (int i = 0, at = 0; i < t->n; at += (int)t->number[i++]->bytes)
-		row[i] = value(t, i, bytes + at);
+	for (int i = 0, at = 0; i < t->n; at += t->number[i++].bytes)
+		if (!binary_number_value(t->number[i], bytes + at, 0, &row[i]))
+			die(t->in.name, "row %zu: column %s: an integer beyond 2^53", t->at, t->cols[i].name);
 	return 1;
 }
 

@@ -5,6 +5,7 @@
 #include "format/columns.h"
 #include "format/csv.h"
 #include "format/npy_table.h"
+#include "format/ply.h"
 #include "format/tab_text.h"
 
 #include <stdio.h>
@@ -18,6 +19,7 @@ struct tab_import {
 	struct tab_text *text;    /* one of these reads */
 	struct csv *csv;
 	struct npy_table *npy;
+	struct ply *ply;
 };
 
 static int find(int n, const struct tab_col *cols, const char *name)
@@ -69,7 +71,7 @@ static int first_byte(FILE *f, const char *path)
 {
 	int c = getc(f);
 	if (c == 0xef && (getc(f) != 0xbb || getc(f) != 0xbf))
-		die(path, "is none of text, CSV and NumPy");
+		die(path, "is none of text, CSV, NumPy and PLY");
 	else if (c == 0xef)
 		c = getc(f);
 	if (c == EOF && ferror(f))
@@ -90,7 +92,7 @@ struct tab_import *tab_import_open(const char *path, const char *units)
 	int first = first_byte(t->f, name);
 	if (first == '#') {
 		if (units)
-			die("--units", "is for CSV and NumPy; %s has units of its own", name);
+			die("--units", "is for CSV, NumPy and PLY; %s has units of its own", name);
 		t->text = tab_text_open(t->f, name);
 		t->cols = tab_text_columns(t->text, &t->n);
 		return t;
@@ -99,9 +101,11 @@ struct tab_import *tab_import_open(const char *path, const char *units)
 	if (first == 0x93) {
 		t->npy = npy_table_open(t->f, name);
 		cols = npy_table_columns(t->npy, &t->n);
-	} else {
-		t->csv = csv_open(t->f, name);
+	} else if ((t->csv = csv_open(t->f, name))) {
 		cols = csv_columns(t->csv, &t->n);
+	} else {
+		t->ply = ply_open(t->f, name);
+		cols = ply_columns(t->ply, &t->n);
 	}
 	usual_units(t->n, cols);
 	if (units)
@@ -120,7 +124,7 @@ const char *tab_import_law(const struct tab_import *t) { return t->text ? tab_te
 
 int tab_import_next(struct tab_import *t, double *row)
 {
-	return t->text ? tab_text_next(t->text, row) : t->csv ? csv_next(t->csv, row) : npy_table_next(t->npy, row);
+	return t->text ? tab_text_next(t->text, row) : t->csv ? csv_next(t->csv, row) : t->npy ? npy_table_next(t->npy, row) : ply_next(t->ply, row);
 }
 
 void tab_import_close(struct tab_import *t)
@@ -129,8 +133,10 @@ void tab_import_close(struct tab_import *t)
 		tab_text_close(t->text);
 	else if (t->csv)
 		csv_close(t->csv);
-	else
+	else if (t->npy)
 		npy_table_close(t->npy);
+	else
+		ply_close(t->ply);
 	if (t->f != stdin)
 		fclose(t->f);
 	free(t);

@@ -1,5 +1,5 @@
-/* tab_import - tables as other programs hand them over: the text of tabtxt, CSV or NumPy, told apart by how they begin ('#', the
- * magic number of NumPy, anything else is CSV; a UTF-8 byte order mark is skipped). Everything dies at the first error. */
+/* tab_import - tables as other programs hand them over: the text of tabtxt, CSV, NumPy or PLY, told apart by how they begin ('#', the
+ * magic number of NumPy, a line "ply", anything else is CSV; a UTF-8 byte order mark is skipped). Everything dies at the first error. */
 #ifndef FORMAT_TAB_IMPORT_H
 #define FORMAT_TAB_IMPORT_H
 
@@ -8,7 +8,7 @@
 struct tab_import;
 
 /* tab_import_open - begin to read (path NULL or "-": standard input).
- * Given: units  NAME=UNIT,.. for columns of CSV and NumPy, which have none of their own; or NULL. A column that it leaves out has
+ * Given: units  NAME=UNIT,.. for columns of CSV, NumPy and PLY, which have none of their own; or NULL. A column that it leaves out has
  *               the unit of format/columns.h, where x is a size parameter unless y or z stands beside it; others have 1. */
 struct tab_import *tab_import_open(const char *path, const char *units);
 

@@ -26,7 +26,8 @@ char *bake_psd(const char *path, double concentration, const struct bake_matter 
 double bake_visibility(double metres, struct medium *m, double *wavelength);
 
 /* bake_particles - particles from a table of x, y, z (m) and radius (um), path NULL: standard input. bounded: the shape is
- * given, about the origin, and none may lie outside; else it becomes the bounding box, and the centre its middle. Returns the table's history. */
+ * given, about the origin, and none may lie outside; else it becomes the bounding box, and the centre its middle. Returns the table's
+ * history. */
 char *bake_particles(const char *path, int bounded, struct medium *m);
 
 #endif

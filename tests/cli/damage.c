@@ -30,7 +30,7 @@ static const struct input {
 	size_t checksum;         /* of all before it, so many bytes from the end: no damage may go unseen; 0: there is none */
 } sizes = { "sizes", 4 }, coeffs = { "coeffs", 4 }, xsect = { "xsect", 4 }, phase = { "phase", 4 },
   grains = { "grains", 4 }, medium = { "medium", 8 }, field = { "field", 8 }, scene = { "scene", 0 },
-  csv = { "csv", 0 }, npy = { "npy", 0 },
+  csv = { "csv", 0 }, npy = { "npy", 0 }, ply = { "ply", 0 },
   zip = { "zip.exr", 0 }, part = { "part.exr", 0 }, piz = { "piz.exr", 0 }, tiled = { "tiled.exr", 0 };
 
 #define LIGHT "--particle", "1.33", "--wavelength", "550nm"
@@ -46,6 +46,7 @@ static const struct reader {
 	{ "tabtxt", &sizes, 1, { NULL } },
 	{ "txttab", &csv, 1, { "--units", "radius=um", "-o", "@out", NULL } },
 	{ "txttab", &npy, 3, { "-o", "@out", NULL } },
+	{ "txttab", &ply, 3, { "--units", "radius=um", "-o", "@out", NULL } },
 	{ "tabcat", &sizes, 31, { "-o", "@out", "@sizes", "-", NULL } },
 	{ "tabcmp", &sizes, 13, { "-", "@sizes", NULL } },
 	{ "mie-coeffs", &sizes, 31, { LIGHT, NULL } },
@@ -167,6 +168,10 @@ static void make_inputs(void)
 	char *command = xtext("cd %s && oiiotool zip.exr --ch R,G,B -d half --compression piz -o piz.exr && "
 	    "oiiotool zip.exr --ch R,G,B -d float --compression pxr24 --tile 16 16 -o tiled.exr && "
 	    "\"$BIN/tabtxt\" --npy grains -o npy && "
+	    "{ printf 'ply\\nformat binary_big_endian 1.0\\nelement thing 1\\nproperty list uchar short some\\nelement vertex 2\\n"
+	    "property float x\\nproperty list uchar int of\\nproperty double radius\\nend_header\\n"
+	    "\\002\\000\\001\\000\\002\\077\\200\\000\\000\\001\\000\\000\\000\\005\\100\\010\\000\\000\\000\\000\\000\\000"
+	    "\\100\\000\\000\\000\\000\\100\\020\\000\\000\\000\\000\\000\\000'; } >ply && "
 	    "{ ! [ -x \"$BIN/medium-bake\" ] || \"$BIN/medium-bake\" --xsect xsect --phase phase --box 1m,1m,1m -o medium grains; } && "
 	    "{ ! [ -x \"$BIN/medium-bake\" ] || \"$BIN/medium-bake\" --xsect xsect --phase phase --psd sizes --concentration 1e9/m3 "
 	    "--box 1m,1m,1m --voxels 3 -o field; } && "

@@ -46,7 +46,9 @@ npy() {
 	perl -e 'my $h = "{\x27descr\x27: \x27<f4\x27, \x27fortran_order\x27: False, \x27shape\x27: ($ARGV[0]), }";
 		$h .= " " x ((64 - (11 + length $h) % 64) % 64) . "\n"; print "\x93NUMPY\x01\x00", pack("v", length $h), $h' "$1"
 }
+# shellcheck disable=SC2016 # the variables are those of Perl
 field '$x * $y / 5' >first.f4
+# shellcheck disable=SC2016
 field '$z > 2 ? 3 - $x / 3 : 0' >second.f4
 { npy '6, 6, 6'; cat first.f4; } >first.npy
 { npy '6, 6, 6'; cat second.f4; } >second.npy

@@ -95,13 +95,13 @@ with two 64 "$day" 'reddish' 'bluish'
 with turned 64 "$day" 'bluish transport = "grid"; ' 'reddish'
 seed=1
 for name in both two turned; do
-	twice $name $name.scene $seed --samples 64
+	twice "$name" "$name.scene" $seed --samples 64
 	seed=$((seed + 2))
-	for c in R G B single.R multiple.B; do blocks $name $c >$name.$c; done
+	for c in R G B single.R multiple.B; do blocks "$name" $c >"$name.$c"; done
 done
 for name in two turned; do
 	for c in R G B single.R multiple.B; do
-		against "$name $c" both.$c $name.$c | zs 5 4 >told
+		against "$name $c" "both.$c" "$name.$c" | zs 5 4 >told
 		ok $? "$name, $c: $(cat told)"
 	done
 done
@@ -121,9 +121,9 @@ with grainy 64 "$day" 'grains position = [0.3, 0.2, -0.4]; ' 'dark'
 for t in explicit fat-ray; do
 	sed "s/ position = \[0.3, 0.2, -0.4\];/& transport = \"$t\";/" -i all.scene fogs.scene grainy.scene
 	for name in all fogs grainy; do
-		twice $name $name.scene $seed --samples 64
+		twice "$name" "$name.scene" $seed --samples 64
 		seed=$((seed + 2))
-		blocks $name single.G >$name.blocks
+		blocks "$name" single.G >"$name.blocks"
 	done
 	against "$t" all.blocks fogs.blocks grainy.blocks | zs 5 4 >told
 	ok $? "fog and grains, $t: scattered once, $(cat told)"

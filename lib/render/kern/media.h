@@ -131,7 +131,8 @@ FN void media_next(const struct scene *s, const struct tables *t, struct media_w
 }
 
 /* All lanes that have steps to take do so, until at most least of them have any left. */
-FN void media_step(const struct scene *s, const struct tables *t, struct media_walk *g, struct waves w, const struct random *random, int least)
+FN void media_step(const struct scene *s, const struct tables *t, struct media_walk *g, struct waves w, const struct random *random,
+                   int least)
 {
 	if (N_VOLUMES == 1) {
 		volume_step(s, &s->volume[0], t, &g->walk, w, random, least);
