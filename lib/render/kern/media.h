@@ -42,7 +42,7 @@ FN mv media_going(const struct scene *s, const struct media_walk *g)
 /* Lanes m set out through the volume that they have come to. */
 FN void media_enter(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct waves w, const struct random *random)
 {
-	EACH(k, N_VOLUMES) {
+	for (int k = 0; k < N_VOLUMES; k++) {
 		mv own = m & ieq(g->at, IV(k));
 		if (!any(own))
 			continue;
@@ -109,7 +109,7 @@ FN void media_pass(const struct scene *s, const struct tables *t, struct media_w
 /* Lanes m have done with the volume at hand, and go on through the next one. */
 FN void media_next(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct waves w, const struct random *random)
 {
-	EACH(k, N_VOLUMES) {
+	for (int k = 0; k < N_VOLUMES; k++) {
 		mv own = m & ieq(g->at, IV(k));
 		if (any(own))
 			media_pass(s, t, g, k, own, w, random);
@@ -139,7 +139,7 @@ FN void media_step(const struct scene *s, const struct tables *t, struct media_w
 		return;
 	}
 	while (count(g->going) > least) {
-		EACH(k, N_VOLUMES) {
+		for (int k = 0; k < N_VOLUMES; k++) {
 			mv own = g->walk.ray.going & ieq(g->at, IV(k)), others = g->walk.ray.going & NOT(own);
 			int n = count(own);
 			if (!n)
