@@ -6,6 +6,7 @@
 #include "format/tab.h"
 #include "medium/bake.h"
 #include "medium/classes.h"
+#include "medium/host.h"
 #include "medium/medium_file.h"
 #include "medium/particle_counts.h"
 #include "medium/particle_grid.h"
@@ -52,7 +53,7 @@ static void thin(struct medium *m, double tolerance, const char *output, int ver
 
 int main(int argc, char **argv)
 {
-	const char *xsect = NULL, *phase = NULL, *psd = NULL, *density = NULL, *output = NULL;
+	const char *xsect = NULL, *phase = NULL, *psd = NULL, *density = NULL, *host = NULL, *output = NULL;
 	long long voxels = 0;
 	int verbose = 0;
 	double tolerance = 0, concentration = NAN, visibility = NAN, sphere = NAN, box[3] = { NAN, NAN, NAN };
@@ -65,6 +66,7 @@ int main(int argc, char **argv)
 		{ "--box", OPT_BOX, box, 1e-9, 1e6, "X,Y,Z", "the medium fills a box", 0 },
 		{ "--sphere", OPT_M, &sphere, 1e-9, 1e6, "R", "the medium fills a sphere", 0 },
 		{ "--density", OPT_FILE, &density, 0, 0, "GRID.npy", "relative density in the box, [z][y][x], or of each class, with --psd", 0 },
+		{ "--host", OPT_TEXT, &host, 0, 0, "M", "what is between the particles, which absorbs; default: as the cross sections say", 0 },
 		{ "--voxels", OPT_INT, &voxels, 1, MEDIUM_VOXELS_SIDE, "N", "voxels along the longest side", 0 },
 		{ "--tolerance", OPT_REAL, &tolerance, 1e-6, 0.1, "T", "merge classes and leave out angles that change less", 0 },
 		{ "--verbose", OPT_FLAG, &verbose, 0, 0, NULL, "say what is baked", 1 },
@@ -102,6 +104,9 @@ int main(int argc, char **argv)
 	int exact = 0;
 	char *matter = psd ? bake_psd(psd, isnan(visibility) ? concentration : 1, &matter_of, density, &m, &exact)
 	    : bake_particles(args.n ? args.operand[0] : NULL, bounded, &m);
+	char *surrounds = host ? xtext("%s", host) : provenance_host(history);
+	host_absorption(host ? "--host" : xsect, surrounds, &m);
+	free(surrounds);
 	if (!isnan(visibility)) {
 		double wavelength;
 		concentration = bake_visibility(visibility, &m, &wavelength);

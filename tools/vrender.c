@@ -3,6 +3,7 @@
 #include "base/opt.h"
 #include "base/out.h"
 #include "format/tab.h"
+#include "medium/host.h"
 #include "medium/medium_file.h"
 #include "medium/particle_grid.h"
 #include "render/backend.h"
@@ -103,8 +104,9 @@ static int transport_of(const struct scene_medium *m, const struct medium *mediu
 		die(m->file, "has no particles, which explicit and fat-ray need; bake it from particles, or render it as grid or continuous");
 	}
 	if (verbose)
-		warn(m->file, "%s, %s: %zu particles, %d classes, %d wavelengths, mean optical depth %.4g along the shortest axis",
-		     scene_transport[transport], why, medium->n_particles, medium->n_classes, medium->n_waves, medium_depth(medium));
+		warn(m->file, "%s, %s: %zu particles, %d classes, %d wavelengths, mean optical depth %.4g along the shortest axis%s",
+		     scene_transport[transport], why, medium->n_particles, medium->n_classes, medium->n_waves, medium_depth(medium),
+		     medium->host ? ", and a host that absorbs" : "");
 	return transport;
 }
 
@@ -121,6 +123,23 @@ static void open_media(const struct scenefile *f, struct medium_file *baked, con
 				die(f->medium[i].file, "has a wavelength of %g um where %s has %g: the media of a scene need the same",
 				    medium[i]->wavelength[w], f->medium[0].file, medium[0]->wavelength[w]);
 	}
+}
+
+/* The media's hosts that absorb are media, too: host[], of which those at n.. of the scene. Returns how many there are. */
+static int add_hosts(const char *path, struct scenefile *f, const struct medium **medium, struct medium *host)
+{
+	int n = f->n_media;
+	for (int i = 0; i < n; i++) {
+		if (!medium[i]->host)
+			continue;
+		if (f->n_media == MAX_VOLUMES)
+			die(path, "has more than %d media, of which one is what absorbs between the particles of another", MAX_VOLUMES);
+		host[f->n_media - n] = host_medium(medium[i]);
+		medium[f->n_media] = &host[f->n_media - n];
+		f->medium[f->n_media] = f->medium[i];
+		f->medium[f->n_media++].file = xtext("%s", f->medium[i].file);
+	}
+	return f->n_media - n;
 }
 
 /* What the media are made of, and the scene. */
@@ -182,6 +201,7 @@ int main(int argc, char **argv)
 	struct scenefile file;
 	struct medium_file baked[MAX_VOLUMES];
 	const struct medium *medium[MAX_VOLUMES];
+	struct medium host[MAX_VOLUMES];
 	struct setup setup;
 	struct film film;
 	const char *path = args.n ? args.operand[0] : "-";
@@ -199,6 +219,10 @@ int main(int argc, char **argv)
 		die("--attenuation", "exponential goes with --transport fat-ray");
 	if (spectral && medium[0]->n_waves > IMAGE_WAVES)
 		die("--spectral", "the medium has %d wavelengths; an image has room for %d", medium[0]->n_waves, IMAGE_WAVES);
+	char *history = history_of(&file, baked);
+	int hosts = add_hosts(path, &file, medium, host);
+	for (int i = 1; i <= hosts; i++)
+		options.transport[file.n_media - i] = TRANSPORT_CONTINUOUS;
 	setup_make(&setup, &file, medium, &options);
 	film_make(&film, &setup.scene);
 
@@ -210,7 +234,6 @@ int main(int argc, char **argv)
 	if (!film_holds(&film))
 		die(path, "the light is too strong: a pixel's samples sum to more than 2^32; scale the lights down");
 	struct image image;
-	char *history = history_of(&file, baked);
 	image_of(&image, &setup.scene, &film, medium[0], from, to, samples, history, args.history);
 	image_write(&out, &image, part != NULL);
 	image_free(&image);
@@ -219,8 +242,10 @@ int main(int argc, char **argv)
 		cl_free(cl);
 	film_free(&film);
 	setup_free(&setup);
-	for (int i = 0; i < file.n_media; i++)
+	for (int i = 0; i < file.n_media - hosts; i++)
 		medium_file_close(&baked[i]);
+	for (int i = 0; i < hosts; i++)
+		medium_free(&host[i]);
 	scenefile_free(&file);
 	free(args.history);
 	return 0;

@@ -31,7 +31,7 @@ int medium_even(const struct medium *m)
 void medium_free(struct medium *m)
 {
 	void *const own[] = { m->history, m->wavelength, m->radius, m->count, m->c_ext, m->c_sca, m->node, m->theta, m->p,
-		m->particle, m->first, m->voxel_count, m->density };
+		m->particle, m->first, m->voxel_count, m->density, m->host };
 	for (size_t i = 0; i < sizeof own / sizeof *own; i++)
 		free(own[i]);
 }

@@ -38,6 +38,7 @@ struct medium {
 	size_t n_density;
 	float *density;                 /* [z][y][x] of MEDIUM_DENSITY: relative density, see density.h; or [class][z][y][x], each class's own */
 	double matter;                  /* m^3, integral of the density, or of each class's, over the medium */
+	double *host;                   /* [wave] m^-1, absorption by what is between the particles; NULL: none */
 };
 
 /* medium_by_class - whether each class has a density of its own. */

@@ -51,6 +51,9 @@ static const char *classes(const struct medium *m)
 			return "its cross sections are out of range (1e30 um^2)";
 		largest = fmax(largest, m->c_ext[i]);
 	}
+	for (int w = 0; w < m->n_waves && m->host; w++)
+		if (!within(m->host[w], 0, MEDIUM_VALUE))
+			return "its host's absorption is out of range (1e30 m^-1)";
 	if (m->kind == MEDIUM_PARTICLES && largest < MEDIUM_DISC_LEAST)
 		return "its particles are too small (1e-25 um^2)";
 	return NULL;

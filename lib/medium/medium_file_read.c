@@ -95,6 +95,22 @@ static void centre(const char *path, struct medium *m, char *line)
 	}
 }
 
+/* A number a wavelength, of which it is not yet known how many there are: returns how many it has. */
+static int host(const char *path, struct medium *m, char *line)
+{
+	char *f[MEDIUM_WAVES + 2], *end;
+	int n = fields(line, f, MEDIUM_WAVES + 2) - 1;
+	if (n < 1 || n > MEDIUM_WAVES || m->host)
+		damaged(path, "bad host line");
+	m->host = xalloc((size_t)n, sizeof *m->host);
+	for (int w = 0; w < n; w++) {
+		m->host[w] = strtod(f[1 + w], &end);
+		if (end == f[1 + w] || *end)
+			damaged(path, "bad host line");
+	}
+	return n;
+}
+
 static void grid(const char *path, struct medium *m, char *line)
 {
 	char *f[10];
@@ -149,7 +165,7 @@ static void header(const char *path, struct medium_file *f, uint64_t *n)
 	struct medium *m = &f->medium;
 	size_t most = f->size < MEDIUM_HEADER_MAX ? f->size : MEDIUM_HEADER_MAX, at = strlen(MEDIUM_MAGIC);
 	const char *text = f->map;
-	int section = 0, lines = 0, commands = 0;
+	int section = 0, lines = 0, commands = 0, hosts = 0;
 	uint64_t former = 0;
 	m->history = xtext("%s", "");
 	for (;;) {
@@ -173,6 +189,8 @@ static void header(const char *path, struct medium_file *f, uint64_t *n)
 			lines |= 1;
 		} else if (!strncmp(line, "centre\t", 7)) {
 			centre(path, m, line);
+		} else if (!strncmp(line, "host\t", 5)) {
+			hosts = host(path, m, line);
 		} else if (!strncmp(line, "grid\t", 5)) {
 			grid(path, m, line);
 			lines |= 2;
@@ -193,6 +211,8 @@ static void header(const char *path, struct medium_file *f, uint64_t *n)
 	}
 	if (section != N_SECTIONS || lines != 7)
 		damaged(path, "header not complete");
+	if (hosts && (uint64_t)hosts != n[SECTION_wavelength])
+		damaged(path, "its host has other wavelengths");
 	arrays(path, f, at, n, former);
 }
 
@@ -242,4 +262,5 @@ void medium_file_close(struct medium_file *f)
 {
 	munmap(f->map, f->size);
 	free(f->medium.history);
+	free(f->medium.host);
 }

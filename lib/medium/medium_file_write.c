@@ -48,6 +48,12 @@ static void header(struct sink *s, const struct medium *m, const uint64_t *n)
 	xappend(&text, "grid\t%d\t%d\t%d\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\t%.9g\n", m->cells[0], m->cells[1], m->cells[2],
 	        m->low[0], m->low[1], m->low[2], m->cell[0], m->cell[1], m->cell[2]);
 	xappend(&text, "voxels\t%d\t%d\t%d\t%.17g\t%.17g\n", m->voxels[0], m->voxels[1], m->voxels[2], m->voxel, m->matter);
+	if (m->host) {
+		xappend(&text, "host");
+		for (int w = 0; w < m->n_waves; w++)
+			xappend(&text, "\t%.17g", m->host[w]);
+		xappend(&text, "\n");
+	}
 	for (int i = 0; i < N_SECTIONS; i++)
 		xappend(&text, "section\t%s\t%llu\n", medium_layout[i].name, (unsigned long long)n[i]);
 	xappend(&text, "\n");

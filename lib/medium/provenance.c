@@ -24,14 +24,20 @@ static int by_text(const void *a, const void *b)
 	return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-/* What a command says, in an order of its own; NULL if it is another program's. */
-static char *meaning(enum provenance what, const char *line)
+/* Whether a command tells of it. */
+static int tells(enum provenance what, const char *line)
 {
 	static const char *const programs[][5] = { { "psd" }, { "xsect", "mie-coeffs", "mie-phase", "goa-phase" } };
 	int is = 0;
 	for (const char *const *p = programs[what]; *p; p++)
 		is |= begins(line, *p);
-	if (!is)
+	return is;
+}
+
+/* What a command says, in an order of its own; NULL if it is another program's. */
+static char *meaning(enum provenance what, const char *line)
+{
+	if (!tells(what, line))
 		return NULL;
 	char *copy = xtext("%s", strchr(line, ' ') ? strchr(line, ' ') + 1 : ""), *rest = copy, *said = xtext("%s", "");
 	char **part = xalloc(strlen(copy) + 1, sizeof *part);
@@ -90,4 +96,20 @@ char *provenance_stranger(enum provenance what, const char *history, const char 
 	free(mine);
 	free(others);
 	return found;
+}
+
+char *provenance_host(const char *history)
+{
+	static const char option[] = " --host ";
+	char *copy = xtext("%s", history), *save = NULL, *host = NULL;
+	for (char *line = strtok_r(copy, "\n", &save); line; line = strtok_r(NULL, "\n", &save)) {
+		const char *said = tells(PROVENANCE_OPTICS, line) ? strstr(line, option) : NULL;
+		if (!said)
+			continue;
+		said += strlen(option);
+		free(host);
+		host = xtext("%.*s", (int)strcspn(said, " "), said);
+	}
+	free(copy);
+	return host;
 }

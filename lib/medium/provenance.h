@@ -16,4 +16,7 @@ int provenance_known(enum provenance what, const char *history);
  * of options does not count. NULL where there is no such, or the other history has no such commands at all. */
 char *provenance_stranger(enum provenance what, const char *history, const char *other);
 
+/* provenance_host - what --host was of the last command of a history that has optics, from malloc; NULL where it was not given. */
+char *provenance_host(const char *history);
+
 #endif

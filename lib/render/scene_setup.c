@@ -70,19 +70,28 @@ static float depth_scale(const struct setup *u, const struct scenefile *f)
 }
 
 /* The origin is the middle of the box around all media; of one that is its centre to the last bit. */
-static void place(struct setup *u, const struct scenefile *file, const struct medium *const *medium)
+static void place(struct setup *u, const struct scenefile *file, const struct medium *const *medium, const int *which)
 {
 	for (int a = 0; a < 3; a++) {
 		double low = INFINITY, high = -INFINITY, at[MAX_VOLUMES];
 		for (int k = 0; k < file->n_media; k++) {
-			at[k] = file->medium[k].position[a] + medium[k]->centre[a];
-			low = fmin(low, at[k] - medium[k]->half[a]);
-			high = fmax(high, at[k] + medium[k]->half[a]);
+			const struct medium *m = medium[which[k]];
+			at[k] = file->medium[which[k]].position[a] + m->centre[a];
+			low = fmin(low, at[k] - m->half[a]);
+			high = fmax(high, at[k] + m->half[a]);
 		}
 		u->origin[a] = file->n_media == 1 ? at[0] : (low + high) / 2;
 		for (int k = 0; k < file->n_media; k++)
 			u->scene.volume[k].centre[a] = (float)(at[k] - u->origin[a]);
 	}
+}
+
+static int scatters(const struct medium *m)
+{
+	int some = 0;
+	for (int i = 0; i < m->n_classes * m->n_waves; i++)
+		some |= m->c_sca[i] > 0;
+	return some;
 }
 
 void setup_make(struct setup *u, const struct scenefile *file, const struct medium *const *medium, const struct render_options *options)
@@ -98,11 +107,20 @@ void setup_make(struct setup *u, const struct scenefile *file, const struct medi
 	s->isotropic = 1;
 	for (int i = 0; i < file->n_lights; i++)
 		suns |= file->light[i].kind == LIGHT_SUN;
-	place(u, file, medium);
+	int which[MAX_VOLUMES], n = 0;    /* medium of each volume: those that scatter are the first */
+	for (int k = 0; k < s->n_volumes; k++)
+		if (scatters(medium[k]))
+			which[n++] = k;
+	const int scattering = n;
+	for (int k = 0; k < s->n_volumes; k++)
+		if (!scatters(medium[k]))
+			which[n++] = k;
+	place(u, file, medium, which);
 	for (int k = 0; k < s->n_volumes; k++) {
-		s->volume[k].transport = options->transport[k];
+		s->volume[k].transport = options->transport[which[k]];
 		s->volume[k].attenuation = options->attenuation;
-		volume_setup(u, k, file, medium[k], suns);
+		s->volume[k].absorbs = k >= scattering;
+		volume_setup(u, k, file, file->medium[which[k]].file, medium[which[k]], suns && scattering == 1);
 	}
 	light_setup(u, file);
 	camera_setup(u, file);

@@ -21,8 +21,9 @@ double setup_reach(const struct scene *s);
 /* camera_setup - needs the volumes and the surfaces: rays begin where these do. */
 void camera_setup(struct setup *u, const struct scenefile *f);
 
-/* volume_setup - volume k; needs its transport; suns: whether there are lights of which a forward peak makes spikes. */
-void volume_setup(struct setup *u, int k, const struct scenefile *f, const struct medium *m, int suns);
+/* volume_setup - volume k, of a medium by that name; needs its transport; peaked: whether a forward peak makes spikes, of
+ * lights that are suns, and none but this volume scatters. */
+void volume_setup(struct setup *u, int k, const struct scenefile *f, const char *name, const struct medium *m, int peaked);
 
 /* light_setup - lights and surfaces; needs the volumes, and their peak and truncation. */
 void light_setup(struct setup *u, const struct scenefile *f);

@@ -65,15 +65,17 @@ static void colours(struct setup *u, const struct medium *m)
 	SET_TABLE(u, 0, colour, colour, 6 * waves);
 }
 
-/* Phase functions, with the peak of the only class of the only volume where there are suns. */
-static void phases(struct setup *u, int n, const struct medium *m, int suns)
+/* Phase functions, with the peak of the only class where it makes spikes. */
+static void phases(struct setup *u, int n, const struct medium *m, int peaked)
 {
 	struct volume *v = &u->scene.volume[n];
 	struct forward_peak peak;
-	forward_peak_make(&peak, m, suns && u->scene.n_volumes == 1 ? v->only_class : -1);
+	forward_peak_make(&peak, m, peaked && !n ? v->only_class : -1);
 	phase_sampler_make(&u->sampler[n], peak.n_classes, m->n_waves, peak.range, peak.theta, peak.p);
-	u->scene.peak = (float)peak.share;
-	u->scene.chain_scale = peak.share > 0 ? (float)(-1 / log(peak.share)) : 0;
+	if (!n) {
+		u->scene.peak = (float)peak.share;
+		u->scene.chain_scale = peak.share > 0 ? (float)(-1 / log(peak.share)) : 0;
+	}
 	SET_TABLE(u, n, truncation, setup_own(u, peak.truncation), (size_t)m->n_waves);
 	peak.truncation = NULL;
 	forward_peak_free(&peak);
@@ -162,7 +164,7 @@ static double densest(const struct setup *u, int n, int w)
 
 /* Refuse what would hardly end. Of a medium that does not absorb, a path from outside meets 4 V/S times the mean extinction on the average
  * (Blanco and Fournier 2003), which is up to twice the depth along the shortest axis; one in a voxel, about that across it. */
-static void ends(const struct setup *u, int n, const struct scenefile *f, const struct medium *m)
+static void ends(const struct setup *u, int n, const char *name, const struct medium *m)
 {
 	const struct volume *v = &u->scene.volume[n];
 	size_t waves = (size_t)m->n_waves, classes = (size_t)m->n_classes;
@@ -179,12 +181,12 @@ static void ends(const struct setup *u, int n, const struct scenefile *f, const 
 		if (v->transport == TRANSPORT_GRID)
 			depth = fmax(depth, densest(u, n, (int)w) * side);
 		if (fmin(depth, 1 / (1 - albedo)) > SCATTERINGS_MOST)
-			die(f->medium[n].file, "optical depth %.3g at %g um without absorption: a path would be scattered over %g times", depth,
+			die(name, "optical depth %.3g at %g um without absorption: a path would be scattered over %g times", depth,
 			    m->wavelength[w], SCATTERINGS_MOST);
 	}
 }
 
-void volume_setup(struct setup *u, int n, const struct scenefile *f, const struct medium *m, int suns)
+void volume_setup(struct setup *u, int n, const struct scenefile *f, const char *name, const struct medium *m, int peaked)
 {
 	struct volume *v = &u->scene.volume[n];
 	v->counted = m->kind == MEDIUM_PARTICLES;
@@ -197,8 +199,8 @@ void volume_setup(struct setup *u, int n, const struct scenefile *f, const struc
 	optics(u, n, m);
 	if (!n)
 		colours(u, m);
-	phases(u, n, m, suns);
+	phases(u, n, m, peaked);
 	particles(u, n, f, m);
 	voxels(u, n, m);
-	ends(u, n, f, m);
+	ends(u, n, name, m);
 }

@@ -6,7 +6,8 @@
  * of n further scatterings by the peak, n being geometric, whose directions are drawn backwards from the sun and whose flights go
  * forward. What is evaluated is then at most truncation / (1 - peak). Paths that may have been scattered by peaks alone, from the camera
  * or the ground on, are weighed by the share of their pdf that was: for them the sun is estimated by the peak at the vertex, and met by
- * chance. A sun so large that multiple importance sampling bounds its spikes lower is left to that. All this is for a single volume. */
+ * chance. A sun so large that multiple importance sampling bounds its spikes lower is left to that. All this is where the
+ * first volume alone scatters. */
 #ifndef KERN_FORWARD_PEAK_H
 #define KERN_FORWARD_PEAK_H
 
@@ -60,7 +61,7 @@ FN void chain_go(const struct scene *s, const struct tables *t, struct path *p, 
 		set_random(m & flight, &p->walk_random, own);
 		SET_TRUTH(m, p->chain.flying, flight);
 	}
-	media_begin(s, t, &p->walk, m, r, t_end, flight, p->waves, &p->walk_random);
+	media_begin(s, t, &p->walk, m, r, t_end, flight, NO_LANE, p->waves, &p->walk_random);
 }
 
 /* Flights of chains m have ended. */
@@ -70,10 +71,12 @@ FN void chain_arrive(const struct scene *s, const struct tables *t, struct path 
 	struct collision c = media_end(s, t, &p->walk, m, p->waves, &p->walk_random, flight_pdf);
 	fv mean = take_pdf(s, p->waves, p->chain.pdf, m, flight_pdf);
 	mv hit = m & c.happened & lt(FV(0.f), mean);
+	if (N_VOLUMES > 1)
+		hit &= ieq(c.volume, IV(0));
 	p->chain.flying &= NOT(m);
 	EACH_WAVE(j) {
 		fv albedo = of_class(s, &s->volume[0], t->albedo, hit, c.class, p->waves, j);
-		SET(m, p->nee[j], SEL(hit, p->nee[j] * albedo, FV(0.f)));
+		SET(m, p->nee[j], SEL(hit, p->nee[j] * albedo * media_kept(s, &p->walk, j), FV(0.f)));
 		none[j] = FV(0.f);     /* pdfs of the directions were taken in at the vertex */
 	}
 	if (!any(hit))

@@ -3,7 +3,10 @@
  * What is in one volume knows nothing of the others: a flight ends at the nearest of the collisions that flights through each alone
  * would have, and transmittances multiply. The volumes are passed one by one, each with random numbers of its own, a flight no further
  * than to the nearest collision so far. One that has collided has passed all others up to there; those that were passed before were
- * passed too far, and of several wavelengths are passed again, to the collision, for the pdf there. */
+ * passed too far, and of several wavelengths are passed again, to the collision, for the pdf there.
+ *
+ * A volume that only absorbs ends the camera's own flights, so that alpha and depth tell of it; further ones lose weight in it instead, by
+ * its transmittance to the collision that the others, which come before it, have settled. */
 #ifndef KERN_MEDIA_H
 #define KERN_MEDIA_H
 
@@ -14,12 +17,14 @@ struct media_walk {
 	/* of several volumes */
 	mv going;                  /* not yet through all of them */
 	mv flight;                 /* else a shadow ray */
+	mv by_chance;              /* a flight that ends where it is absorbed */
 	mv again;                  /* a flight that passes the volumes before that of its collision once more */
 	iv at;                     /* the volume at hand */
 	struct ray ray;
 	fv t_end;                  /* the nearest collision, or where the ray ends */
 	struct collision nearest;
 	fv passed[CARRIED];        /* pdf of the flight, transmittance of the shadow ray, so far */
+	fv kept[CARRIED];          /* of a flight's weight */
 };
 
 /* Random numbers of volume k, the first of which has the vertex's own. */
@@ -39,6 +44,9 @@ FN mv media_going(const struct scene *s, const struct media_walk *g)
 	return N_VOLUMES > 1 ? g->going : volume_going(&s->volume[0], &g->walk);
 }
 
+/* Flights through a volume, all others being shadow rays there. */
+FN mv flights_in(const struct volume *v, const struct media_walk *g) { return v->absorbs ? g->flight & g->by_chance : g->flight; }
+
 /* Lanes m set out through the volume that they have come to. */
 FN void media_enter(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct waves w, const struct random *random)
 {
@@ -50,13 +58,13 @@ FN void media_enter(const struct scene *s, const struct tables *t, struct media_
 		struct ray r = g->ray;
 		r.from = sub(r.from, load3(s->volume[k].centre));
 		r.skip = SEL(ieq(r.volume, IV(k)), r.skip, IV(NONE));
-		volume_begin(s, &s->volume[k], t + k, &g->walk, own, r, g->t_end, g->flight, w, &numbers);
+		volume_begin(s, &s->volume[k], t + k, &g->walk, own, r, g->t_end, flights_in(&s->volume[k], g), w, &numbers);
 	}
 }
 
-/* Lanes m set out along r up to t_end, in flight, or else as shadow rays. */
+/* Lanes m set out along r up to t_end, in flight, or else as shadow rays; by_chance: flights that end where they are absorbed. */
 FN void media_begin(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct ray r, fv t_end, mv flight,
-                    struct waves w, const struct random *random)
+                    mv by_chance, struct waves w, const struct random *random)
 {
 	if (N_VOLUMES == 1) {
 		volume_begin(s, &s->volume[0], t, &g->walk, m, r, t_end, flight, w, random);
@@ -69,8 +77,11 @@ FN void media_begin(const struct scene *s, const struct tables *t, struct media_
 	SET(m, g->ray.volume, r.volume);
 	SET(m, g->t_end, t_end);
 	SET(m, g->at, IV(0));
-	EACH_WAVE(j)
+	EACH_WAVE(j) {
 		SET(m, g->passed[j], FV(1.f));
+		SET(m, g->kept[j], FV(1.f));
+	}
+	SET_TRUTH(m, g->by_chance, by_chance);
 	SET_TRUTH(m, g->flight, flight);
 	SET_TRUTH(m, g->again, NO_LANE);
 	SET_TRUTH(m, g->nearest.happened, NO_LANE);
@@ -84,12 +95,14 @@ FN void media_pass(const struct scene *s, const struct tables *t, struct media_w
 {
 	const struct volume *v = &s->volume[k];
 	struct random numbers = volume_random(random, k);
-	mv shadow = m & NOT(g->flight), flight = m & g->flight;
+	mv flight = m & flights_in(v, g), shadow = m & NOT(flight);
 	fv own[CARRIED];
 	if (any(shadow)) {
 		volume_transmittance(s, v, t + k, &g->walk, shadow, w, own);
-		EACH_WAVE(j)
-			SET(shadow, g->passed[j], g->passed[j] * own[j]);
+		EACH_WAVE(j) {
+			SET(shadow & NOT(g->flight), g->passed[j], g->passed[j] * own[j]);
+			SET(shadow & g->flight, g->kept[j], g->kept[j] * own[j]);
+		}
 	}
 	if (!any(flight))
 		return;
@@ -165,6 +178,9 @@ FN void media_transmittance(const struct scene *s, const struct tables *t, struc
 	EACH_WAVE(j)
 		out[j] = g->passed[j];
 }
+
+/* What flights m keep of wavelength j's weight. */
+FN fv media_kept(const struct scene *s, const struct media_walk *g, int j) { return N_VOLUMES == 1 ? FV(1.f) : g->kept[j]; }
 
 /* How flights m ended; flight_pdf as volume_end. */
 FN struct collision media_end(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct waves w,

@@ -64,7 +64,7 @@ FN void path_fly(const struct scene *s, const struct tables *t, struct path *p, 
 	p->flying |= m;
 	if (LANES_WAIT)
 		set_random(m, &p->walk_random, p->random);
-	media_begin(s, t, &p->walk, m, p->ray, t_end, ALL_LANES, p->waves, &p->random);
+	media_begin(s, t, &p->walk, m, p->ray, t_end, ALL_LANES, ieq(p->order, IV(0)) & FROM_CAMERA(p), p->waves, &p->random);
 	if (KNOWS_DEPTH && TAKES_STEPS(&s->volume[0]) && any(m & MAY_BE_FORCED(p)))
 		volume_measure(s, &s->volume[0], t, &p->walk.walk, m & MAY_BE_FORCED(p), p->waves);
 }
@@ -174,6 +174,9 @@ FN mv path_arrive(const struct scene *s, const struct tables *t, struct path *p,
 	}
 	struct collision c = media_end(s, t, &p->walk, m, p->waves, &p->random, flight_pdf);
 	mv alive = m & lt(FV(0.f), take_pdf(s, p->waves, p->path_pdf, m, flight_pdf));
+	if (N_VOLUMES > 1)
+		EACH_WAVE(j)
+			SET(m, p->weight[j], p->weight[j] * media_kept(s, &p->walk, j));
 	mv ground = alive & NOT(c.happened) & ieq(p->surface, IV(GROUND)), out = alive & NOT(c.happened | ground | forced);
 	if (COLOURED || SPECTRAL) {
 		mv seen = m & NOT(forced) & ieq(p->order, IV(0)) & FROM_CAMERA(p);

@@ -53,6 +53,7 @@ struct volume {
 	int classed;               /* of which each class may have its own */
 	int n_classes;             /* class n_classes is the mixture of the whole medium */
 	int only_class;            /* that scatters, or -1 where there are several */
+	int absorbs;               /* and does not scatter; such volumes are the last */
 	float centre[3];           /* of all that follows */
 	int round;                 /* it fills a sphere of radius extent[0], else a box */
 	float extent[3];
@@ -116,7 +117,7 @@ struct scene {
 	struct volume volume[MAX_VOLUMES];
 	int isotropic;             /* all phase functions are 1 / (4 pi) */
 	float peak;                /* share of scattering that is above the truncation of a peaked phase function, 0: there is no peak; */
-	float chain_scale;         /* 1 / -log(peak); of the only volume */
+	float chain_scale;         /* 1 / -log(peak); of the first volume, the only one that scatters */
 	struct lights lights;
 	struct surfaces surfaces;
 	uint32 seed;
