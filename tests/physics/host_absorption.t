@@ -17,10 +17,10 @@ rows 0 >clear.xsect
 rows 1 >dark.xsect
 one_size
 hg 0.9 0.45 0.55 0.65 >9.phase
-bake() { medium-bake --xsect "$1.xsect" --phase 9.phase --psd one.psd --concentration 1e6/m3 --box 2m,2m,2m -o "$2.medium" $3; }
-bake clear hosted "--host 1.33+${k}i"
-bake dark alone ''
-bake clear clear '--host 1.33'
+bake() { name=$2.medium from=$1.xsect; shift 2; medium-bake --xsect "$from" --phase 9.phase --psd one.psd --concentration 1e6/m3 --box 2m,2m,2m -o "$name" "$@"; }
+bake clear hosted --host "1.33+${k}i"
+bake dark alone
+bake clear clear --host 1.33
 tr '\n' ' ' <hosted.medium | grep -aq 'host	1.117' && ! tr '\n' ' ' <clear.medium | grep -aq ' host	'
 ok $? 'the file says what the host absorbs, if anything'
 # a small sun, of which the forward peak would make spikes: the chains that avoid them pass the host, too
