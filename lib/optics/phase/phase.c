@@ -11,6 +11,14 @@ double phase_interval(double theta0, double h, double p0, double p1)
 	return 2 * M_PI * (p0 * (s * cos0 + c * sin0) + slope * (s * cos1 + c * sin1));
 }
 
+double phase_half_l1(double theta0, double h, double d0, double d1)
+{
+	double to = d0 * d1 < 0 ? h * d0 / (d0 - d1) : 0;    /* where d changes its sign */
+	double part = to > 0 ? fabs(phase_interval(theta0, to, d0, 0)) + fabs(phase_interval(theta0 + to, h - to, 0, d1))
+	    : fabs(phase_interval(theta0, h, d0, d1));
+	return part / 2;
+}
+
 double phase_integral(int n, const double *theta, const double *p)
 {
 	double sum = 0;
