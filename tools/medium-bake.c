@@ -51,6 +51,19 @@ static void thin(struct medium *m, double tolerance, const char *output, int ver
 		     t.classes, t.classes_error, m->n_nodes, t.nodes, t.nodes_error);
 }
 
+/* What is in the file, and how thick it is. */
+static void tell(const struct medium *m, const char *output)
+{
+	double depth = medium_depth(m) / fmin(m->half[0], fmin(m->half[1], m->half[2]));
+	size_t nodes = m->n_nodes * sizeof(float) * (1 + (size_t)m->n_waves);
+	size_t particles = m->n_particles * 4 * sizeof(float) + m->n_first * sizeof(uint32_t);
+	size_t voxels = m->n_voxel_count * sizeof(uint32_t) + m->n_density * sizeof(float);
+	warn(output, "%zu particles, %d classes, %d wavelengths; mean optical depth at %g um %.4g along x, %.4g along y, %.4g along z; "
+	     "%.1f MB of phase functions, %.1f of particles, %.1f of %d x %d x %d voxels", m->n_particles, m->n_classes, m->n_waves,
+	     m->wavelength[0], depth * m->half[0], depth * m->half[1], depth * m->half[2], 1e-6 * (double)nodes, 1e-6 * (double)particles,
+	     1e-6 * (double)voxels, m->voxels[0], m->voxels[1], m->voxels[2]);
+}
+
 int main(int argc, char **argv)
 {
 	const char *xsect = NULL, *phase = NULL, *psd = NULL, *density = NULL, *host = NULL, *output = NULL;
@@ -124,6 +137,8 @@ int main(int argc, char **argv)
 		particle_counts_build(&m, (int)voxels);
 	}
 	medium_file_write(output, &m);
+	if (verbose)
+		tell(&m, output);
 	medium_free(&m);
 	free(matter_of.integral);
 	free(history);
