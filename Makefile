@@ -159,7 +159,7 @@ check: ; @$(MAKE) --no-print-directory CPUS=all check-programs && MOTES_BUILD=$(
 # For those at work: under a minute on two cores, for the processor at hand.
 check-quick: check-programs ; MOTES_BUILD=$(B) sh tests/run --quick
 check-programs: programs $(CHECKS:%=$(B)/tests/%)
-asan: ; @$(MAKE) --no-print-directory CPUS=all asan-check-programs && MOTES_BUILD=$(B)/asan sh tests/run
+asan: ; @$(MAKE) --no-print-directory CPUS=all programs asan-check-programs && MOTES_BUILD=$(B)/asan sh tests/run
 asan-check-programs: asan-programs $(CHECKS:%=$(B)/asan/tests/%)
 
 demo: programs
