@@ -37,6 +37,8 @@ done
 vrender field.scene --samples 3 --backend opencl -o cl.exr
 cmp -s one.exr cl.exr
 ok $? 'the same bytes by OpenCL'
+sed 's/\[32, 32\]/[4, 3]/' field.scene >tiny.scene
+simulated 'densities of classes' tiny.scene
 
 # ---- two classes in one medium are two media of one class in one place
 field() {     # field EXPRESSION: of cell x, y, z of 6^3, little-endian floats

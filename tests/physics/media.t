@@ -85,6 +85,8 @@ ok $? 'as by OpenCL'
 MOTES_CL_BUFFER=256KiB vrender furnace.scene --samples 3 --backend opencl -o cl.exr 2>err
 cmp -s one.exr cl.exr
 ok $? "as by OpenCL from tables in parts $(cat err)"
+sed 's/\[48, 48\]/[4, 3]/; s/fov = 18.0/fov = 5.0/' furnace.scene >tiny.scene
+simulated 'three media' tiny.scene
 
 # ---- two media of opposite colours against one of both, at all wavelengths, whichever comes first; 64 blocks and the whole
 coloured reddish '2 1 0.2' 0.9 5.phase
