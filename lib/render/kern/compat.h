@@ -7,6 +7,7 @@
 #ifndef FN
 #define FN static inline __attribute__((always_inline))
 #endif
+#define FN_ONCE FN
 #define GLOBAL __global
 #define UNROLL _Pragma("unroll")    /* a loop that is kept keeps its arrays in memory */
 typedef long int64;
@@ -16,6 +17,7 @@ typedef ulong uint64;
 #include <stdint.h>
 #include <string.h>
 #define FN static inline __attribute__((always_inline, unused))
+#define FN_ONCE static __attribute__((noinline, unused))    /* so large and so rare that one copy will do */
 #define GLOBAL
 #define UNROLL                     /* done unasked */
 typedef int64_t int64;

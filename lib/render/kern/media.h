@@ -48,7 +48,7 @@ FN mv media_going(const struct scene *s, const struct media_walk *g)
 FN mv flights_in(const struct volume *v, const struct media_walk *g) { return v->absorbs ? g->flight & g->by_chance : g->flight; }
 
 /* Lanes m set out through the volume that they have come to. */
-FN void media_enter(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct waves w, const struct random *random)
+FN_ONCE void media_enter(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct waves w, const struct random *random)
 {
 	for (int k = 0; k < N_VOLUMES; k++) {
 		mv own = m & ieq(g->at, IV(k));
@@ -120,7 +120,7 @@ FN void media_pass(const struct scene *s, const struct tables *t, struct media_w
 }
 
 /* Lanes m have done with the volume at hand, and go on through the next one. */
-FN void media_next(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct waves w, const struct random *random)
+FN_ONCE void media_next(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct waves w, const struct random *random)
 {
 	for (int k = 0; k < N_VOLUMES; k++) {
 		mv own = m & ieq(g->at, IV(k));
