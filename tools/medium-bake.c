@@ -40,7 +40,7 @@ static void check_provenance(const char *xsect, const char *phase, int psd, int 
 	free(optics);
 }
 
-/* What a tolerance leaves of classes and of angles of phase functions, half of it for each. */
+/* What a tolerance leaves: half of it is for classes, and what these do not take for the angles of phase functions. */
 static void thin(struct medium *m, double tolerance, const char *output, int verbose)
 {
 	struct thinned t;
@@ -118,11 +118,13 @@ int main(int argc, char **argv)
 	char *matter = psd ? bake_psd(psd, isnan(visibility) ? concentration : 1, &matter_of, density, &m, &exact)
 	    : bake_particles(args.n ? args.operand[0] : NULL, bounded, &m);
 	char *surrounds = host ? xtext("%s", host) : provenance_host(history);
-	host_absorption(host ? "--host" : xsect, surrounds, &m);
+	host_absorption(host ? "--host" : "--host of the cross sections", surrounds, &m);
 	free(surrounds);
 	if (!isnan(visibility)) {
 		double wavelength;
 		concentration = bake_visibility(visibility, &m, &wavelength);
+		if (wavelength != 0.55)
+			warn("--visibility", "is taken at %g um: the cross sections do not reach 0.55 um", wavelength);
 		if (verbose)
 			warn(output, "one sees %g m at %g um where %.6g/m3 make an extinction of %.4g/m", visibility, wavelength, concentration,
 			     -log(0.02) / visibility);

@@ -120,7 +120,7 @@ static void open_media(const struct scenefile *f, struct medium_file *baked, con
 			    f->medium[0].file, medium[0]->n_waves);
 		for (int w = 0; w < medium[0]->n_waves; w++)
 			if (fabs(medium[i]->wavelength[w] - medium[0]->wavelength[w]) > 1e-9 * medium[0]->wavelength[w])
-				die(f->medium[i].file, "has a wavelength of %g um where %s has %g: the media of a scene need the same",
+				die(f->medium[i].file, "has a wavelength of %.12g um where %s has %.12g: the media of a scene need the same",
 				    medium[i]->wavelength[w], f->medium[0].file, medium[0]->wavelength[w]);
 	}
 }
@@ -133,7 +133,7 @@ static int add_hosts(const char *path, struct scenefile *f, const struct medium 
 		if (!medium[i]->host)
 			continue;
 		if (f->n_media == MAX_VOLUMES)
-			die(path, "has more than %d media, of which one is what absorbs between the particles of another", MAX_VOLUMES);
+			die(path, "has more than %d media, counted with what absorbs between the particles of some", MAX_VOLUMES);
 		host[f->n_media - n] = host_medium(medium[i]);
 		medium[f->n_media] = &host[f->n_media - n];
 		f->medium[f->n_media] = f->medium[i];

@@ -84,6 +84,9 @@ struct npy_grid npy_density(const char *path, size_t *classes)
 		}
 		for (size_t i = 0; i < count; i++, have++) {
 			float v = value(chunk + i * bytes, bytes);
+			if (!(v >= 0 && isfinite(v)) && n[0] > 1)
+				die(s.name, "voxel [%zu][%zu][%zu][%zu] is not a finite density >= 0", have / n[3] / n[2] / n[1], have / n[3] / n[2] % n[1],
+				    have / n[3] % n[2], have % n[3]);
 			if (!(v >= 0 && isfinite(v)))
 				die(s.name, "voxel [%zu][%zu][%zu] is not a finite density >= 0", have / n[3] / n[2] % n[1], have / n[3] % n[2], have % n[3]);
 			g.v[have] = v;

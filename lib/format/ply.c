@@ -4,6 +4,7 @@
 #include "format/binary_number.h"
 #include "format/text_lines.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -207,12 +208,15 @@ static void read_ascii(struct ply *t, const struct element *e, uint64_t at, doub
 	const char *word = strtok_r(line, " \t", &save);
 	for (int i = 0; i < e->n; i++) {
 		const struct property *p = &t->property[e->first + i];
-		double length = p->list ? text_lines_number(&t->in, p->name, word ? word : "") : 0;
+		double v = text_lines_number(&t->in, p->name, word ? word : "");
 		if (!p->list)
-			*row++ = text_lines_number(&t->in, p->name, word ? word : "");
-		for (double k = 0; k < length && word; k++)
-			word = strtok_r(NULL, " \t", &save);
-		word = word ? strtok_r(NULL, " \t", &save) : NULL;
+			*row++ = v;
+		else if (!(v >= 0 && v == floor(v)))
+			die(t->in.path, "line %ld: list %s has a length of %g", t->in.number, p->name, v);
+		for (double k = 0; p->list && k < v; k++)
+			if (!(word = strtok_r(NULL, " \t", &save)))
+				die(t->in.path, "line %ld: list %s is cut short", t->in.number, p->name);
+		word = strtok_r(NULL, " \t", &save);
 	}
 	if (word)
 		die(t->in.path, "line %ld: has more than the %d properties of a vertex", t->in.number, e->n);
@@ -233,7 +237,7 @@ struct ply *ply_open(FILE *f, const char *path)
 	header(t);
 	columns(t);
 	for (const struct element *e = t->element; e < t->vertices; e++)
-		for (uint64_t i = 0; i < e->number; i++)
+		for (uint64_t i = 0; i < e->number && (e->n || t->order == ASCII); i++)    /* without properties there are no bytes, but lines */
 			take_element(t, e, i, NULL);
 	return t;
 }

@@ -20,8 +20,9 @@ struct bake_matter bake_density(const char *path, int longest, struct medium *m)
  * struct medium wants. *exact: whether all radii are the classes' own. Returns the table's history. */
 char *bake_psd(const char *path, double concentration, const struct bake_matter *matter, const char *density, struct medium *m, int *exact);
 
-/* bake_visibility - the concentration (m^-3) of which things are seen so far away, where the density is 1: Koschmieder's law (1924) with a
- * contrast of 2 %, extinction 3.912 / visibility at 550 nm, linear between wavelengths, or at the nearest one. After bake_psd with a
+/* bake_visibility - the concentration (m^-3) of which things are seen so far away, where the density is 1, or by classes in the mean over the
+ * medium: Koschmieder's law (1924) with a contrast of 2 %, extinction 3.912 / visibility at 550 nm, of which the host takes its part; linear
+ * between wavelengths, or at the nearest one. After bake_psd with a
  * concentration of 1, whose counts become those of the one returned. Sets *wavelength (um) to where. */
 double bake_visibility(double metres, struct medium *m, double *wavelength);
 

@@ -125,7 +125,10 @@ double bake_visibility(double metres, struct medium *m, double *wavelength)
 		sum += m->count[k] * ((1 - share) * m->c_ext[k * waves + low] + share * m->c_ext[k * waves + high]) * 1e-12;
 	if (!(sum > 0))
 		die("--visibility", "cannot be had: there is no extinction anywhere");
-	double scale = -log(0.02) / metres * m->matter / sum;
+	double host = m->host ? (1 - share) * m->host[low] + share * m->host[high] : 0, left = -log(0.02) / metres - host;
+	if (!(left > 0))
+		die("--visibility", "is farther than one sees in the host alone, %g m", -log(0.02) / host);
+	double scale = left * m->matter / sum;
 	for (int k = 0; k < m->n_classes; k++)
 		m->count[k] *= scale;
 	*wavelength = high > low ? 0.55 : m->wavelength[low];

@@ -40,6 +40,15 @@ dispersed 1e6 1 0.6 >longer.xsect
 visible one '100 m at 0.55 um where 39120.2/m3'
 visible between '0.55 um where 37257.4/m3'
 visible longer '0.6 um where 39120.2/m3'
+grep -q '^medium-bake: --visibility: is taken at 0.6 um' err
+ok $? 'which is said'
+bake_host() { medium-bake --xsect one.xsect --phase iso.phase --psd one.psd --visibility 100m --host "$1" --box 100m,200m,200m --verbose -o hosted.medium 2>err; }
+# 4 pi 1e-9 / 0.55 um is 0.0228479/m of ln(50) / 100 m
+bake_host 1.33+1e-9i && grep -q 'where 16272.3/m3' err
+ok $? "a host takes its part: $(cat err)"
+bake_host 1.33+3e-9i
+[ $? -eq 2 ] && grep -q 'farther than one sees in the host alone, 57.0733 m' err
+ok $? "or all: $(cat err)"
 scene s.scene seen.medium 16 ''
 vrender s.scene --samples 1 --verbose -o s.exr 2>&1 | grep -q 'mean optical depth 3.912 '
 ok $? 'an optical depth of 3.912 over 100 m'

@@ -57,7 +57,13 @@ bad 'a property twice' 'property x stands twice' 's/^property float32 z/property
 bad 'a word for a number' "line 20: column y: 'many' is not a number" 's/0\.2/many/'
 bad 'too few numbers' "line 20: column kind: '' is not a number" 's/ 255$//'
 bad 'too many numbers' 'line 20: has more than the 6 properties' 's/ 255$/ 255 3/'
+bad 'a list that is cut short' 'line 20: list colours is cut short' 's/^2\.5 0 .*/2.5 3 1 2/'
+bad 'a list of a length that is none' 'line 20: list colours has a length of -1' 's/^2\.5 0 /2.5 -1 /'
 bad 'a number of vertices that is none' 'line 7: how many of element vertex' 's/^element vertex 3/element vertex -3/'
+
+printf 'ply\nformat binary_little_endian 1.0\nelement nothing 999999999999999999\nelement vertex 1\nproperty char x\nend_header\n1' >much.ply
+timeout 20 txttab much.ply | tabtxt | grep -q '^49$'
+ok $? 'more elements of nothing than could ever be counted'
 
 # the points as a cloud of drops
 printf '# wavelength:f64:um\tradius:f64:um\tc_ext:f64:um^2\tc_sca:f64:um^2\n0.55\t10\t600\t500\n' | txttab -o xsect
