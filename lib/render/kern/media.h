@@ -12,6 +12,13 @@
 
 #include "render/kern/volume.h"
 
+/* For any number of volumes, one of them included, one copy has to do. */
+#ifdef VOLUMES
+#define MEDIA_FN FN
+#else
+#define MEDIA_FN FN_ONCE
+#endif
+
 struct media_walk {
 	struct volume_walk walk;   /* through the volume at hand */
 	/* of several volumes */
@@ -63,7 +70,7 @@ FN_ONCE void media_enter(const struct scene *s, const struct tables *t, struct m
 }
 
 /* Lanes m set out along r up to t_end, in flight, or else as shadow rays; by_chance: flights that end where they are absorbed. */
-FN void media_begin(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct ray r, fv t_end, mv flight,
+MEDIA_FN void media_begin(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct ray r, fv t_end, mv flight,
                     mv by_chance, struct waves w, const struct random *random)
 {
 	if (N_VOLUMES == 1) {
@@ -183,7 +190,7 @@ FN void media_transmittance(const struct scene *s, const struct tables *t, struc
 FN fv media_kept(const struct scene *s, const struct media_walk *g, int j) { return N_VOLUMES == 1 ? FV(1.f) : g->kept[j]; }
 
 /* How flights m ended; flight_pdf as volume_end. */
-FN struct collision media_end(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct waves w,
+MEDIA_FN struct collision media_end(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct waves w,
                               const struct random *random, fv *flight_pdf)
 {
 	if (N_VOLUMES == 1)
