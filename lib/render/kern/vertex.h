@@ -21,11 +21,11 @@ struct vertex {
 /* The albedo of what scatters at wavelength j. */
 FN fv vertex_albedo(const struct scene *s, const struct tables *t, mv m, const struct vertex *vertex, struct waves w, int j)
 {
-	fv albedo = of_class(s, &s->volume[0], t->albedo, IN_VOLUME(m, vertex, 0), vertex->class, w, j);
-	for (int k = 1; k < N_VOLUMES; k++) {
+	fv albedo = FV(0.f);
+	for (int k = 0; k < N_VOLUMES; k++) {
 		mv own = IN_VOLUME(m, vertex, k);
-		if (any(own))
-			SET(own, albedo, of_class(s, &s->volume[k], t[k].albedo, own, vertex->class, w, j));
+		fv there = of_class(s, &s->volume[k], t[k].albedo, own, vertex->class, w, j);
+		albedo = N_VOLUMES > 1 ? SEL(own, there, albedo) : there;
 	}
 	return albedo;
 }
@@ -33,15 +33,14 @@ FN fv vertex_albedo(const struct scene *s, const struct tables *t, mv m, const s
 /* value[j] in sr^-1 at an angle, as phase_value. */
 FN void vertex_phase(const struct scene *s, const struct tables *t, mv m, const struct vertex *vertex, fv theta, struct waves w, fv *value)
 {
-	phase_value(s, t, IN_VOLUME(m, vertex, 0), s->volume[0].only_class, vertex->class, theta, w, value);
-	for (int k = 1; k < N_VOLUMES; k++) {
+	EACH_WAVE(j)
+		value[j] = FV(0.f);
+	for (int k = 0; k < N_VOLUMES; k++) {
 		mv own = IN_VOLUME(m, vertex, k);
 		fv there[CARRIED];
-		if (!any(own))
-			continue;
 		phase_value(s, t + k, own, s->volume[k].only_class, vertex->class, theta, w, there);
 		EACH_WAVE(j)
-			SET(own, value[j], there[j]);
+			value[j] = N_VOLUMES > 1 ? SEL(own, there[j], value[j]) : there[j];
 	}
 }
 
@@ -49,17 +48,17 @@ FN void vertex_phase(const struct scene *s, const struct tables *t, mv m, const 
 FN void vertex_draw(const struct scene *s, const struct tables *t, mv m, const struct vertex *vertex, struct waves w, uv u, uv v, fv *sine,
                     fv *cosine, fv *value)
 {
-	phase_draw(s, t, IN_VOLUME(m, vertex, 0), s->volume[0].only_class, vertex->class, w, u, v, sine, cosine, value);
-	for (int k = 1; k < N_VOLUMES; k++) {
+	*sine = *cosine = FV(0.f);
+	EACH_WAVE(j)
+		value[j] = FV(0.f);
+	for (int k = 0; k < N_VOLUMES; k++) {
 		mv own = IN_VOLUME(m, vertex, k);
 		fv sn, cs, there[CARRIED];
-		if (!any(own))
-			continue;
 		phase_draw(s, t + k, own, s->volume[k].only_class, vertex->class, w, u, v, &sn, &cs, there);
-		SET(own, *sine, sn);
-		SET(own, *cosine, cs);
+		*sine = N_VOLUMES > 1 ? SEL(own, sn, *sine) : sn;
+		*cosine = N_VOLUMES > 1 ? SEL(own, cs, *cosine) : cs;
 		EACH_WAVE(j)
-			SET(own, value[j], there[j]);
+			value[j] = N_VOLUMES > 1 ? SEL(own, there[j], value[j]) : there[j];
 	}
 }
 
