@@ -123,7 +123,7 @@ int main(int argc, char **argv)
 	if (!isnan(visibility)) {
 		double wavelength;
 		concentration = bake_visibility(visibility, &m, &wavelength);
-		if (wavelength != 0.55)
+		if (fabs(wavelength - 0.55) > 1e-6)
 			warn("--visibility", "is taken at %g um: the cross sections do not reach 0.55 um", wavelength);
 		if (verbose)
 			warn(output, "one sees %g m at %g um where %.6g/m3 make an extinction of %.4g/m", visibility, wavelength, concentration,

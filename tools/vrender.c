@@ -145,10 +145,10 @@ static int add_hosts(const char *path, struct scenefile *f, const struct medium 
 /* What the media are made of, and the scene. */
 static char *history_of(const struct scenefile *f, const struct medium_file *baked)
 {
-	char *history = NULL;
+	char *history = xtext("%s", "");
 	for (int i = 0; i < f->n_media; i++) {
 		char *content = xtext("medium crc %08x", baked[i].crc), *before = history;
-		history = tab_join(before ? before : baked[i].medium.history, before ? baked[i].medium.history : content, before ? content : NULL, NULL);
+		history = tab_join(before, baked[i].medium.history, content, NULL);
 		free(content);
 		free(before);
 	}

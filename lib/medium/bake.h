@@ -22,8 +22,8 @@ char *bake_psd(const char *path, double concentration, const struct bake_matter 
 
 /* bake_visibility - the concentration (m^-3) of which things are seen so far away, where the density is 1, or by classes in the mean over the
  * medium: Koschmieder's law (1924) with a contrast of 2 %, extinction 3.912 / visibility at 550 nm, of which the host takes its part; linear
- * between wavelengths, or at the nearest one. After bake_psd with a
- * concentration of 1, whose counts become those of the one returned. Sets *wavelength (um) to where. */
+ * between wavelengths, or at the nearest one. After bake_psd with a concentration of 1, whose counts become those of the one returned. Sets
+ * *wavelength (um) to where. Dies where there is no extinction, or the host alone takes more. */
 double bake_visibility(double metres, struct medium *m, double *wavelength);
 
 /* bake_particles - particles from a table of x, y, z (m) and radius (um), path NULL: standard input. bounded: the shape is

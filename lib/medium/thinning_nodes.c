@@ -74,7 +74,9 @@ static void settle(struct thinner *t, int at)
  * is off by, as normalising may add no more. */
 static double thin_one(struct thinner *t, double tolerance, char *keep)
 {
-	double *total = xalloc((size_t)t->waves, sizeof *total), *sum = xalloc((size_t)t->waves, sizeof *sum), most = 0;
+	const size_t waves = (size_t)t->waves;
+	double *total = xalloc(waves, sizeof *total), *sum = xalloc(waves, sizeof *sum), most = 0;
+	double *chords = xalloc(waves, sizeof *chords), *sums = xalloc(waves, sizeof *sums);    /* of the gap that is made */
 	t->left = 0;
 	for (int i = 0; i < t->n; i++) {
 		keep[i] = 1;
@@ -94,20 +96,19 @@ static double thin_one(struct thinner *t, double tolerance, char *keep)
 		if (!(t->cost[i] < INFINITY))
 			break;
 		for (int w = 0; w < t->waves; w++) {
-			double s, e = chord(t, a, b, w, &s);
-			double whole = total[w] + e - t->gap[a * t->waves + w] - t->gap[i * t->waves + w];
-			double off = sum[w] + s - t->gap_sum[a * t->waves + w] - t->gap_sum[i * t->waves + w];
+			chords[w] = chord(t, a, b, w, &sums[w]);
+			double whole = total[w] + chords[w] - t->gap[a * t->waves + w] - t->gap[i * t->waves + w];
+			double off = sum[w] + sums[w] - t->gap_sum[a * t->waves + w] - t->gap_sum[i * t->waves + w];
 			after = fmax(after, whole + fabs(off) / 2);
 		}
 		if (after > tolerance)
 			break;
 		for (int w = 0; w < t->waves; w++) {
 			size_t at = (size_t)(a * t->waves + w), here = (size_t)(i * t->waves + w);
-			double s, e = chord(t, a, b, w, &s);
-			total[w] += e - t->gap[at] - t->gap[here];
-			sum[w] += s - t->gap_sum[at] - t->gap_sum[here];
-			t->gap[at] = e;
-			t->gap_sum[at] = s;
+			total[w] += chords[w] - t->gap[at] - t->gap[here];
+			sum[w] += sums[w] - t->gap_sum[at] - t->gap_sum[here];
+			t->gap[at] = chords[w];
+			t->gap_sum[at] = sums[w];
 		}
 		most = after;
 		keep[i] = 0;
@@ -126,6 +127,8 @@ static double thin_one(struct thinner *t, double tolerance, char *keep)
 	}
 	free(total);
 	free(sum);
+	free(chords);
+	free(sums);
 	return most;
 }
 

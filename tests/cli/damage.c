@@ -174,7 +174,7 @@ static void make_inputs(void)
 	    "\\100\\000\\000\\000\\000\\100\\020\\000\\000\\000\\000\\000\\000'; } >ply && "
 	    "{ ! [ -x \"$BIN/medium-bake\" ] || \"$BIN/medium-bake\" --xsect xsect --phase phase --box 1m,1m,1m -o medium grains; } && "
 	    "{ ! [ -x \"$BIN/medium-bake\" ] || \"$BIN/medium-bake\" --xsect xsect --phase phase --psd sizes --concentration 1e9/m3 "
-	    "--box 1m,1m,1m --voxels 3 -o field; } && "
+	    "--box 1m,1m,1m --voxels 3 --host 1.33+1e-9i -o field; } && "
 	    "{ ! [ -x \"$BIN/vrender\" ] || \"$BIN/vrender\" --sample-range 0:2 --spectral -o part.exr scene; }", folder);
 	if (system(command))
 		die(folder, "cannot make the files to be damaged");

@@ -28,15 +28,7 @@ for c in 'B 1' 'G 2' 'R 3'; do
 done
 
 # ---- the same bytes from every way to run it
-vrender field.scene --samples 3 --threads 1 -o one.exr
-for cpu in $(cpus); do
-	MOTES_CPU=$cpu vrender field.scene --samples 3 --threads 5 -o cpu.exr
-	cmp -s one.exr cpu.exr
-	ok $? "the same bytes on $cpu"
-done
-vrender field.scene --samples 3 --backend opencl -o cl.exr
-cmp -s one.exr cl.exr
-ok $? 'the same bytes by OpenCL'
+every_way classes field.scene 3
 sed 's/\[32, 32\]/[4, 3]/' field.scene >tiny.scene
 simulated 'densities of classes' tiny.scene
 
@@ -86,19 +78,11 @@ printf '%s\nmedium = { file = "both.medium"; };\n' "$head" >both.scene
 printf '%s\nmedia = ( { file = "first.medium"; transport = "grid"; }, { file = "second.medium"; } );\n' "$head" >apart.scene
 twice both both.scene 5 --samples 128
 twice apart apart.scene 7 --samples 128
-for c in R G B single.R multiple.B; do
-	blocks both $c >both.blocks
-	blocks apart $c >apart.blocks
-	against "$c" both.blocks apart.blocks | zs 5 4 >told
-	ok $? "two classes, and two media, $c: $(cat told)"
-done
+same_picture apart both
 bake --xsect both.xsect --phase both.phase --psd two.psd --concentration 1e6/m3 --density both.npy --tolerance 1e-3 -o thin.medium
 sed 's/both/thin/' both.scene >thin.scene
 twice thin thin.scene 9 --samples 128
-blocks thin G >thin.blocks
-blocks both G >both.blocks
-against thin both.blocks thin.blocks | zs 5 4 >told
-ok $? "with --tolerance: $(cat told)"
+same_picture both thin
 
 # ---- what does not belong together
 bake --xsect first.xsect --phase first.phase --psd one.psd --concentration 1/m3 --density both.npy -o no.medium 2>err

@@ -33,12 +33,7 @@ for name in hosted alone; do
 done
 twice hosted hosted.scene 1 --samples 128
 twice alone alone.scene 3 --samples 128
-for c in R G B single.R multiple.B; do
-	blocks hosted $c >hosted.blocks
-	blocks alone $c >alone.blocks
-	against "$c" alone.blocks hosted.blocks | zs 5 4 >told
-	ok $? "host and particles, $c: $(cat told)"
-done
+same_picture alone hosted
 for i in 1 2; do
 	channels mean hosted.$i.exr AB
 	channels mean alone.$i.exr AB
@@ -49,15 +44,7 @@ channels rms alone.1.exr G - alone.2.exr G >other
 paste one other | awk '{ exit !($1 < 2 * $2) }'
 ok $? "with less noise than spikes, or absorption by chance, would make: $(paste one other)"
 
-vrender hosted.scene --samples 3 --threads 1 -o one.exr
-for cpu in $(cpus); do
-	MOTES_CPU=$cpu vrender hosted.scene --samples 3 -o cpu.exr
-	cmp -s one.exr cpu.exr
-	ok $? "the same bytes on $cpu"
-done
-vrender hosted.scene --samples 3 --backend opencl -o cl.exr
-cmp -s one.exr cl.exr
-ok $? 'the same bytes by OpenCL'
+every_way host hosted.scene 3
 
 # ---- by default it is the host of the cross sections
 sizes 1 | tabtxt | sed 's/^1000/100/' | txttab >bubbles.psd

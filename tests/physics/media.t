@@ -70,20 +70,9 @@ near "$low" 1 1e-5 && near "$high" 1 1e-5
 ok $? "furnace of three media: pixels from $low to $high"
 
 # ---- the same bytes from every way to run them
-vrender furnace.scene --samples 3 --threads 1 -o one.exr
-vrender furnace.scene --samples 3 --threads 7 -o seven.exr
-cmp -s one.exr seven.exr
-ok $? 'one thread and seven'
-for cpu in $(cpus); do
-	MOTES_CPU=$cpu vrender furnace.scene --samples 3 -o cpu.exr
-	cmp -s one.exr cpu.exr
-	ok $? "as on $cpu"
-done
-vrender furnace.scene --samples 3 --backend opencl -o cl.exr
-cmp -s one.exr cl.exr
-ok $? 'as by OpenCL'
+every_way three furnace.scene 3
 MOTES_CL_BUFFER=256KiB vrender furnace.scene --samples 3 --backend opencl -o cl.exr 2>err
-cmp -s one.exr cl.exr
+cmp -s three.exr cl.exr
 ok $? "as by OpenCL from tables in parts $(cat err)"
 sed 's/\[48, 48\]/[4, 3]/; s/fov = 18.0/fov = 5.0/' furnace.scene >tiny.scene
 simulated 'three media' tiny.scene
@@ -99,14 +88,9 @@ seed=1
 for name in both two turned; do
 	twice "$name" "$name.scene" $seed --samples 64
 	seed=$((seed + 2))
-	for c in R G B single.R multiple.B; do blocks "$name" $c >"$name.$c"; done
 done
-for name in two turned; do
-	for c in R G B single.R multiple.B; do
-		against "$name $c" "both.$c" "$name.$c" | zs 5 4 >told
-		ok $? "$name, $c: $(cat told)"
-	done
-done
+same_picture both two
+same_picture both turned
 
 # ---- fog and grains: what is scattered once is the sum of what each scatters, the other only taking light away
 xsections 1e6 0.9e6 >fog.xsect

@@ -170,11 +170,9 @@ FN fv density_along(const struct voxel_dda *q, const fv *p, fv t)
 }
 
 /* The integral of a field over span from t, within a cell: that of a cubic, by Gauss's two nodes exactly. */
-FN fv passed_in(const struct scene *s, const struct volume *v, const struct tables *t, const struct voxel_dda *q, mv m, iv brick, const iv *i,
-                fv from, fv span)
+FN fv passed_in(const struct tables *t, const struct voxel_dda *q, mv m, iv brick, const iv *i, fv from, fv span)
 {
 	fv p[8];
-	(void)s, (void)v;
 	corners(t, m, brick, i, p);
 	return span * (0.5f * (density_along(q, p, from + span * 0.211324865f) + density_along(q, p, from + span * 0.788675135f)));
 }
@@ -225,7 +223,7 @@ FN void voxels_step(const struct scene *s, const struct volume *v, const struct 
 	} else if (IS_CLASSED(v)) {
 		fv all[CARRIED], own = FV(FAR);
 		EACH_WAVE(j) {
-			all[j] = q->depth[j] + passed_in(s, v, t, q, full, field_of(s, brick, w, j), i, q->t, span);
+			all[j] = q->depth[j] + passed_in(t, q, full, field_of(s, brick, w, j), i, q->t, span);
 			mv mine = CARRIED == 1 ? ALL_LANES : (g->flight & ieq(w.hero, IV(j))) | (NOT(g->flight) & lt(all[j], own));
 			own = SEL(mine, all[j], own);
 		}
@@ -236,11 +234,7 @@ FN void voxels_step(const struct scene *s, const struct volume *v, const struct 
 		q->reached |= hit;
 		g->going &= NOT(hit);
 	} else {
-		fv p[8];
-		corners(t, full, brick, i, p);
-		/* the cubic, by Gauss's two nodes exactly */
-		fv two = density_along(q, p, q->t + span * 0.211324865f) + density_along(q, p, q->t + span * 0.788675135f);
-		fv sum = q->depth[0] + span * (0.5f * two);
+		fv sum = q->depth[0] + passed_in(t, q, full, brick, i, q->t, span);
 		mv hit = full & le(q->target, sum);
 		SET(hit, q->span, span);
 		SET(full & NOT(hit), q->depth[0], sum);
@@ -279,7 +273,7 @@ FN fv target_place(const struct scene *s, const struct volume *v, const struct t
 	fv share = SEL(lt(FV(0.f), all), fv_min(FV(1.f), (q->target - before) / all), FV(0.f)), on = span * invert_density(cubic, share, 4);
 	if (IS_CLASSED(v))
 		EACH_WAVE(j)
-			SET(m, q->depth[j], q->depth[j] + passed_in(s, v, t, q, m, field_of(s, brick, w, j), i, q->t, on));
+			SET(m, q->depth[j], q->depth[j] + passed_in(t, q, m, field_of(s, brick, w, j), i, q->t, on));
 	else
 		SET(m, q->depth[0], q->target);
 	SET(m, q->t, q->t + on);
