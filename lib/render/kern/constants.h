@@ -53,8 +53,8 @@
 /* A medium of several wavelengths, whose alpha has a colour, too. */
 #define COLOURED (N_WAVES > 1)
 
-/* Where rays take steps, pass several volumes, or are chains of scatterings by a peak, lanes wait for each other, and what concerns a vertex must be kept for
- * those that do. */
+/* Where rays take steps, pass several volumes, or are chains of scatterings by a peak, lanes wait for each other, and what concerns a
+ * vertex must be kept for those that do. */
 #define TAKES_STEPS(v) (TRANSPORT_OF(v) != TRANSPORT_CONTINUOUS)
 #define LANES_WAIT (N_VOLUMES > 1 || TAKES_STEPS(&s->volume[0]) || HAS_PEAK)
 #define PUT(m, place, value) ((place) = LANES_WAIT ? SEL(m, value, place) : (value))

@@ -27,8 +27,8 @@ FN struct random chain_random(const struct path *p, iv k)
 }
 
 /* Directions from which n scatterings by the peak turn to a light; their pdf is taken into pdf[j]. */
-FN struct vec chain_direction(const struct scene *s, const struct tables *t, struct path *p, mv m, iv n,
-                              struct vec light, fv *pdf)
+FN struct vec chain_direction(const struct scene *s, const struct tables *t, struct path *p, mv m, iv n, struct vec light,
+                              fv *pdf)
 {
 	for (int k = 1; any(m &= NOT(ilt(n, IV(k)))); k++) {
 		struct random r = chain_random(p, IV(k));

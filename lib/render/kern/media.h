@@ -55,7 +55,8 @@ FN mv media_going(const struct scene *s, const struct media_walk *g)
 FN mv flights_in(const struct volume *v, const struct media_walk *g) { return v->absorbs ? g->flight & g->by_chance : g->flight; }
 
 /* Lanes m set out through the volume that they have come to. */
-FN_ONCE void media_enter(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct waves w, const struct random *random)
+FN_ONCE void media_enter(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct waves w,
+                         const struct random *random)
 {
 	for (int k = 0; k < N_VOLUMES; k++) {
 		mv own = m & ieq(g->at, IV(k));
@@ -70,8 +71,8 @@ FN_ONCE void media_enter(const struct scene *s, const struct tables *t, struct m
 }
 
 /* Lanes m set out along r up to t_end, in flight, or else as shadow rays; by_chance: flights that end where they are absorbed. */
-MEDIA_FN void media_begin(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct ray r, fv t_end, mv flight,
-                    mv by_chance, struct waves w, const struct random *random)
+MEDIA_FN void media_begin(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct ray r, fv t_end,
+                          mv flight, mv by_chance, struct waves w, const struct random *random)
 {
 	if (N_VOLUMES == 1) {
 		volume_begin(s, &s->volume[0], t, &g->walk, m, r, t_end, flight, w, random);
@@ -127,7 +128,8 @@ FN void media_pass(const struct scene *s, const struct tables *t, struct media_w
 }
 
 /* Lanes m have done with the volume at hand, and go on through the next one. */
-FN_ONCE void media_next(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct waves w, const struct random *random)
+FN_ONCE void media_next(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct waves w,
+                        const struct random *random)
 {
 	for (int k = 0; k < N_VOLUMES; k++) {
 		mv own = m & ieq(g->at, IV(k));
@@ -191,7 +193,7 @@ FN fv media_kept(const struct scene *s, const struct media_walk *g, int j) { ret
 
 /* How flights m ended; flight_pdf as volume_end. */
 MEDIA_FN struct collision media_end(const struct scene *s, const struct tables *t, struct media_walk *g, mv m, struct waves w,
-                              const struct random *random, fv *flight_pdf)
+                                    const struct random *random, fv *flight_pdf)
 {
 	if (N_VOLUMES == 1)
 		return volume_end(s, &s->volume[0], t, &g->walk, m, w, random, flight_pdf);
